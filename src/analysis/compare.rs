@@ -274,6 +274,7 @@ fn elsewhere(study: &str, of: &Manifest) -> Option<String> {
 /// What a reader must know of two runs.
 fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String> {
     let mut notes = Vec::new();
+    let mut timed: BTreeMap<[String; 2], Vec<&str>> = BTreeMap::new();
     for (study, first) in &seen[0] {
         let Some(second) = seen[1].get(study) else { continue };
         let (one, other) = (first.manifest, second.manifest);
@@ -296,14 +297,15 @@ fn notes(seen: &[BTreeMap<&str, Seen<'_>>; 2], lines: &[Line<'_>]) -> Vec<String
         }
         if !first.times.is_empty() && !second.times.is_empty() {
             let cpu = |of: &Manifest| of.made_by.cpu.clone().unwrap_or_else(|| "unknown".to_owned());
-            notes.push(format!(
-                "{study}: clocks were read in two sessions (on {} and on {}), and no interval covers how much sessions \
-                 differ",
-                cpu(one),
-                cpu(other)
-            ));
+            timed.entry([one, other].map(cpu)).or_default().push(study);
         }
     }
+    notes.extend(timed.into_iter().map(|([one, other], studies)| {
+        format!(
+            "{}: clocks were read in two sessions (on {one} and on {other}), and no interval covers how much sessions differ",
+            studies.join(", ")
+        )
+    }));
     notes
 }
 

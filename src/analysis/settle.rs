@@ -99,7 +99,7 @@ pub fn across_settles(across: &Across, judged: &ClaimVerdict, line: Line) -> Opt
         _ => return None,
     }
     match line {
-        Line::SeedDecides => return Some("more instances: two seeds speak opposite ways".to_owned()),
+        Line::SeedDecides => return Some("more instances: the two seeds disagree".to_owned()),
         Line::Refused => {
             return Some("more instances: the second seed contradicts what was fitted".to_owned());
         }
@@ -176,7 +176,7 @@ fn agreeing_instances(found: &CriterionResult) -> String {
     let others = found.limits.iter().filter(|limit| **limit != ours.value);
     let nearest = others.map(far).fold(f64::INFINITY, f64::min);
     if nearest >= 1.0 {
-        return format!("no number of {}: however many agree, the next may not", found.units);
+        return format!("more {} cannot settle it: the next may always disagree", found.units);
     }
     // Unequal chances make ours wider than as many equal ones do; they will do so of more.
     let of_equal = -libm::expm1(libm::log((1.0 - LEVEL) / 2.0) / ours.n as f64);
@@ -234,7 +234,7 @@ mod tests {
             settled([0.0, 0.1], [0.0, 0.0, 1.0 - low]),
             "36 instances, not 20, if all agree as ours do"
         );
-        assert!(settled([1.0, 1.0], [low, 1.0, 1.0]).starts_with("no number of instances"));
+        assert!(settled([1.0, 1.0], [low, 1.0, 1.0]).starts_with("more instances cannot settle it"));
         // Between the ends a limit is seen by the part of the interval on its side.
         let ends = |share: f64| [share - share * (1.0 - low), share, share + (1.0 - share) * (1.0 - low)];
         assert_eq!(settled([0.675, 1.0], ends(0.75)), "36 instances, not 20, if all agree as ours do");

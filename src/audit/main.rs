@@ -61,7 +61,7 @@ struct Audit {
 }
 
 const EXAMPLES: &str = "Examples:
-  replan audit results.md                       | method | success [% of 250] | time [mean s, n=250] |
+  replan audit results.md             its head: | method | success [% of 250] |
   replan audit results.csv --json
   replan audit table.tex --to-claims
   replan audit claims.toml --witness

@@ -100,7 +100,7 @@ pub enum Divisor {
     Either,
 }
 
-/// What a column is.
+/// What the annotation of a column says of its numbers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Meaning {
     /// The kind of number.

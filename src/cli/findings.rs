@@ -7,6 +7,7 @@ use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
 use crate::render::headline::{Headline, headlines};
 use crate::render::prose::{plain, prose};
+use study::Choice;
 use study::paper::Paper;
 
 /// How many claims that cannot be true are named.
@@ -15,17 +16,27 @@ const IMPOSSIBLE: usize = 6;
 /// How many lines of 40 the terminal leaves beside those that `repro` prints before and after.
 const LINES: usize = 34;
 
-/// What counts mean, below the claims.
-const LEGEND: &str =
-    "for/open/against: interpretations (one option for each choice) that agree, cannot tell, contradict";
+/// What stands beside verdicts, and its meaning below the claims. An interpretation takes one option for each choice.
+const LEGEND: [(&str, &str); 4] = [
+    ("for/open/against", "interpretations (one option for each choice) that agree, cannot tell, contradict"),
+    ("same under all", "no interpretation changes the result"),
+    ("met under", "where our number meets the printed one"),
+    ("choices not varied", "other options of these were not tried for the claim"),
+];
 
 /// Columns for a verdict.
 const VERDICT: usize = 18;
 
 /// Prints the finding and the headline claims, a line for what it says and one for what its verdict rests on.
 pub(super) fn print(paper: &Paper, verdicts: &Verdicts, which: &Which) {
-    let shapes = [Below::Everything, Below::Counts, Below::Nothing];
-    let mut texts = shapes.map(|below| text(paper, verdicts, which, below)).into_iter();
+    let shapes = [
+        (Below::Everything, Choices::Explained),
+        (Below::Counts, Choices::Explained),
+        (Below::Everything, Choices::Named),
+        (Below::Counts, Choices::Named),
+        (Below::Nothing, Choices::Named),
+    ];
+    let mut texts = shapes.map(|shape| text(paper, verdicts, which, shape)).into_iter();
     let fits = |text: &String| text.lines().count() <= LINES;
     let shortest = texts.next_back().unwrap_or_default();
     say!("{}", texts.find(fits).unwrap_or(shortest).trim_end());
@@ -42,25 +53,56 @@ enum Below {
     Nothing,
 }
 
-fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, below: Below) -> String {
+/// How the choices appear that the lines below claims name.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Choices {
+    /// The legend says of each what the paper leaves open.
+    Explained,
+    /// Their ids alone, and how one is explained.
+    Named,
+}
+
+fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, (below, choices): (Below, Choices)) -> String {
     let mut text = String::from("\n");
     if let Some(finding) = &paper.report.finding {
         text += &(plain("", &prose(finding, verdicts), 0, COLUMNS) + "\n\n");
     }
+    let mut named = String::new();
     for headline in headlines(paper, verdicts) {
         let words = match below {
             Below::Everything => headline.rests_on(verdicts),
             Below::Counts | Below::Nothing => headline.beside(verdicts),
         };
+        named += &format!(" {};", words.as_deref().unwrap_or_default());
         text += &lines(&headline, words, below == Below::Nothing);
     }
-    let legend = verdicts.explored.is_some().then(|| format!("{LEGEND}\n"));
-    let proved = impossible(verdicts).map(|line| plain("", &line, 2, COLUMNS) + "\n");
-    let notes: String = legend.into_iter().chain(proved).collect();
+    let legend = LEGEND.iter().filter(|(words, _)| named.contains(words));
+    let mut notes: Vec<String> = legend.map(|(words, meaning)| format!("{words}: {meaning}")).collect();
+    let mut open = paper.choices.iter().filter(|choice| names(&named, &choice.id));
+    if choices == Choices::Explained {
+        notes.extend(open.map(|choice| {
+            let clause = choice.why.split([';', ':']).next().unwrap_or_default();
+            format!("{}: {}", choice.id, clause.split(". ").next().unwrap_or_default())
+        }));
+    } else if let (Some(line), Some(choice)) = (notes.last_mut(), open.next()) {
+        *line += &format!("; a choice: {} {}", which.command("show"), choice.id);
+    }
+    if below == Below::Nothing {
+        notes = vec![notes.join("; ")];
+    }
+    notes.extend(impossible(verdicts));
+    let notes: String =
+        notes.iter().filter(|line| !line.is_empty()).map(|line| plain("", line, 2, COLUMNS) + "\n").collect();
     if !notes.is_empty() {
         text += &format!("\n{notes}");
     }
     text + "\n" + &tallied(verdicts, which, Lines::Few)
+}
+
+/// Whether the lines below claims speak of the choice `id`, whose id may be a plain word too.
+fn names(lines: &str, id: &str) -> bool {
+    let phrases = [format!(" {id} = "), format!(" {id} matters most"), format!(" depends on {id}")];
+    phrases.iter().any(|phrase| lines.contains(phrase))
 }
 
 /// The claims that a proof refuses, with what they print; of a row its cells.
@@ -98,4 +140,17 @@ fn lines(headline: &Headline<'_>, rests_on: Option<String>, is_one: bool) -> Str
     }
     let says = plain(&(first + " "), &says, indent, COLUMNS);
     format!("{says}\n{}\n", plain(&" ".repeat(indent), &rests, indent, COLUMNS))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_choice_is_named_by_an_option_of_it_and_not_by_a_word_in_a_sentence() {
+        let lines = " 53/0/9 for/open/against; side_choice matters most: 8 of 15; holds only if end = any; depends on ties;";
+        let named = ["side_choice", "end", "ties"].map(|id| names(lines, id));
+        assert_eq!(named, [true; 3]);
+        assert_eq!(["choice", "most", "side", "against", "any"].map(|id| names(lines, id)), [false; 5]);
+    }
 }

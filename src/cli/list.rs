@@ -11,13 +11,13 @@ use crate::render::prose::plain;
 use base::file::read_text;
 use base::robot::read_urdf;
 use base::settings::describe::{Default, Field, fields};
-use base::settings::none_called;
+use base::settings::did_you_mean;
 use clap::{Args, ValueEnum};
 use engine::kinematics::{AXES, Robot, robot::Body};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use study::paper::Paper;
-use study::{Contender, Group, Inputs, Study, elsewhere_mark, recorded_mark};
+use study::{Choice, Contender, Group, Inputs, Study, elsewhere_mark, recorded_mark};
 
 /// Where robots are shipped.
 const ROBOTS: &str = "data/robots";
@@ -34,7 +34,8 @@ pub struct List {
 
 const EXAMPLES: &str = "Examples:
   replan list planners
-  replan list criteria one_instance   one entry with its settings and an example";
+  replan list criteria one_instance   one entry with its settings and an example
+  replan list choices ties            a choice, in every paper that leaves it open";
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum What {
@@ -99,6 +100,10 @@ impl LoadedFiles {
         let find = |id: &str| self.papers.iter().find(|paper| paper.id == id);
         Ok(match (what, name.split_once('/')) {
             (What::Papers, _) => find(name).map(paper_alone),
+            (What::Choices, Some((id, choice))) => {
+                let choices = find(id).into_iter().flat_map(|paper| &paper.choices);
+                choices.filter(|own| own.id == choice).map(choice_alone).next()
+            }
             (What::Studies, Some((id, study))) => {
                 let found = find(id).and_then(|paper| Some((paper, paper.study(study)?)));
                 found.map(|(paper, study)| study_alone(paper, study)).transpose()?
@@ -133,17 +138,46 @@ fn kind(what: What) -> (&'static str, Option<fn() -> Vec<Item>>) {
     }
 }
 
+/// A message names so many things of a kind at most.
+const NAMED: usize = 30;
+
+/// That nothing of the kind `what` is called `name`, with the nearest name; with all if they are few.
+fn none_listed(what: What, name: &str, known: &[&str]) -> Failure {
+    let singular = kind(what).0;
+    let ends = known.iter().filter_map(|known| Some(known.rsplit_once('/')?.1));
+    let hint = did_you_mean(name, known.iter().copied().chain(ends));
+    let there_are = match known.len() {
+        0 => "there are none at all".to_owned(),
+        1..=NAMED => format!("there are {}", known.join(", ")),
+        count => format!("`replan list {}` lists all {count}", title(what)),
+    };
+    Failure::input(format!("there is no {singular} `{name}`{hint}; {there_are}"))
+}
+
+/// The row called `name`, with or without the paper before it; or all of the paper called `name`.
+fn named<'r>(rows: &'r [(String, String)], name: &str) -> Vec<(&'r str, &'r str)> {
+    let is_named = |known: &str| {
+        known == name || known.split_once('/').is_some_and(|(paper, own)| own == name || paper == name)
+    };
+    let rows = rows.iter().map(|(known, about)| (known.as_str(), about.as_str()));
+    rows.filter(|(known, _)| is_named(known)).collect()
+}
+
 /// What the one thing of the kind `what` that is called `name` is.
 fn one(what: What, name: &str) -> Result<(), Failure> {
-    let (singular, items) = kind(what);
+    let items = kind(what).1;
     let Some(items) = items else {
         let (found, results) = LoadedFiles::read(|kind| kind.contains(&what));
         let rows = rows(what, &found);
-        let known = rows.iter().map(|(known, _)| known.as_str());
-        let row = rows.iter().find(|(known, _)| known == name);
-        let (_, about) = row.ok_or_else(|| Failure::input(none_called(singular, name, known)))?;
-        let described = found.described(what, name)?;
-        say!("{}", described.unwrap_or_else(|| format!("{name}\n{}", wrapped("  ", about, 2))));
+        let named = named(&rows, name);
+        if named.is_empty() {
+            let known: Vec<&str> = rows.iter().map(|(known, _)| known.as_str()).collect();
+            return Err(none_listed(what, name, &known));
+        }
+        for (known, about) in &named {
+            let described = if named.len() == 1 { found.described(what, known)? } else { None };
+            say!("{}", described.unwrap_or_else(|| format!("{known}\n{}", wrapped("  ", about, 2))));
+        }
         if let Some(metric) = metric::find(name).filter(|_| what == What::Metrics) {
             let unit = if metric.unit.is_empty() { "none: it is a count or a flag" } else { &metric.unit };
             say!("{}", wrapped("  unit: ", unit, 2));
@@ -153,9 +187,9 @@ fn one(what: What, name: &str) -> Result<(), Failure> {
         return all(results, "papers and robots cannot be listed");
     };
     let items = items();
-    let known = items.iter().map(|item| item.name);
+    let known: Vec<&str> = items.iter().map(|item| item.name).collect();
     let item = items.iter().find(|item| item.name == name);
-    let item = item.ok_or_else(|| Failure::input(none_called(singular, name, known)))?;
+    let item = item.ok_or_else(|| none_listed(what, name, &known))?;
     say!("{}", explained(item));
     Ok(())
 }
@@ -269,6 +303,18 @@ fn paper_alone(paper: &Paper) -> String {
     ] {
         lines.push(wrapped(&format!("  replan {command} {}   ", paper.id), about, 6));
     }
+    lines.join("\n")
+}
+
+/// A choice that a paper leaves open: its options, and why it is one.
+pub(super) fn choice_alone(choice: &Choice) -> String {
+    let options: Vec<&str> = choice.options.keys().map(String::as_str).collect();
+    let lines = [
+        choice.id.clone(),
+        wrapped("  options: ", &options.join(", "), 6),
+        wrapped("  default: ", &choice.default, 6),
+        wrapped("  why: ", &choice.why, 6),
+    ];
     lines.join("\n")
 }
 

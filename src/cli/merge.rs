@@ -20,7 +20,7 @@ use study::plan::Plan;
 pub struct Merge {
     /// The folder that holds the shards
     parts: PathBuf,
-    /// Write below this folder; for an exploration or confirmation the folder of its default run
+    /// Write below this folder; an exploration or confirmation needs the folder of its default run
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]

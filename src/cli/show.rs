@@ -1,8 +1,8 @@
-//! `replan show`: one claim with its evidence, or the claims that hold some words.
+//! `replan show`: one claim with its evidence, a choice, or the claims that hold some words.
 
 use super::places::Places;
 use super::verdicts::{COLUMNS, coloured, print};
-use super::{Failure, Which, places::check_stored};
+use super::{Failure, Which, list, places::check_stored};
 use crate::analysis::history::History;
 use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Verdicts};
 use crate::render::prose::{plain, wrapped};
@@ -11,15 +11,16 @@ use crate::render::tables::in_full;
 use base::settings::did_you_mean;
 use clap::Args;
 use std::path::PathBuf;
-use study::paper::Reply;
+use study::Choice;
+use study::paper::{Paper, Reply};
 
-/// Shows a claim with its evidence, or the claims whose names or sentences hold some words.
+/// Shows a claim with its evidence, a choice, or the claims whose names or sentences hold some words.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Show {
     /// A paper's name, a folder that holds a paper.toml, or a stored run
     paper: String,
-    /// A claim, or words to search for; lists all claims if absent
+    /// A claim, a choice or an option of one, or words to search for; lists all claims if absent
     #[arg(value_name = "CLAIM OR WORDS")]
     words: Vec<String>,
     /// Read from this folder instead of the committed places
@@ -29,7 +30,8 @@ pub struct Show {
 
 const EXAMPLES: &str = "Examples:
   replan show zhang t1.improved.cost
-  replan show zhang bidirectional nodes";
+  replan show zhang bidirectional nodes
+  replan show zhang side_choice       what the paper leaves open, and the options";
 
 impl Show {
     /// Runs the command.
@@ -45,10 +47,22 @@ impl Show {
         let words = self.words.join(" ");
         let found = match verdicts.claim(&words) {
             Some(judged) => vec![judged],
-            None => holding(&verdicts, &words),
+            None => {
+                let choices = choices(&which);
+                let found = holding(&verdicts, &words);
+                let is_named = |choice: &Choice| choice.id == words || choice.options.contains_key(&words);
+                let named: Vec<&Choice> = choices.iter().filter(|choice| is_named(choice)).collect();
+                if named.is_empty() && found.is_empty() {
+                    return Err(none_holds(&verdicts, &choices, &words, &which));
+                }
+                for choice in named {
+                    say!("{}", list::choice_alone(choice));
+                }
+                found
+            }
         };
         match &found[..] {
-            [] => return Err(none_holds(&verdicts, &words, &which)),
+            [] => {}
             [judged] => {
                 let citation = History::read(&runs)?.citation(&verdicts, judged);
                 let replies = verdicts.replies_to(&judged.claim).map(Reply::line);
@@ -70,20 +84,41 @@ impl Show {
 fn holding<'v>(verdicts: &'v Verdicts, words: &str) -> Vec<&'v ClaimVerdict> {
     let words = words.to_lowercase();
     let holds = |judged: &&ClaimVerdict| {
-        let own = [Some(&judged.claim), Some(&judged.at)];
-        let sentences = [&judged.says, &judged.short, &judged.quote].map(Option::as_ref);
-        let texts = own.into_iter().chain(sentences);
-        let text = texts.flatten().map(|text| text.to_lowercase()).collect::<Vec<_>>().join(" ");
+        let text = searched(judged);
         words.split_whitespace().all(|word| text.contains(word))
     };
     verdicts.claims.iter().filter(holds).collect()
 }
 
-fn none_holds(verdicts: &Verdicts, words: &str, which: &Which) -> Failure {
-    let claims = verdicts.claims.iter().map(|judged| judged.claim.as_str());
+/// The id, the place and the sentences of a claim, in small letters.
+fn searched(judged: &ClaimVerdict) -> String {
+    let own = [Some(&judged.claim), Some(&judged.at)];
+    let sentences = [&judged.says, &judged.short, &judged.quote].map(Option::as_ref);
+    let texts = own.into_iter().chain(sentences).flatten();
+    texts.map(|text| text.to_lowercase()).collect::<Vec<_>>().join(" ")
+}
+
+/// What the paper leaves open; nothing if the paper cannot be read.
+fn choices(which: &Which) -> Vec<Choice> {
+    let places = Places::stored(which).ok();
+    let paper = places.and_then(|places| Paper::load(&places.folder, &places.inputs).ok());
+    paper.map_or_else(Vec::new, |paper| paper.choices)
+}
+
+/// That nothing has or holds `words`, with the nearest id, or else the nearest word for the first that no claim holds.
+fn none_holds(verdicts: &Verdicts, choices: &[Choice], words: &str, which: &Which) -> Failure {
+    let claims = verdicts.claims.iter().map(|judged| &judged.claim);
+    let ids = claims.chain(choices.iter().map(|choice| &choice.id)).map(String::as_str);
+    let mut hint = did_you_mean(words, ids);
+    if hint.is_empty() {
+        let texts: Vec<String> = verdicts.claims.iter().map(searched).collect();
+        let known = || texts.iter().flat_map(|text| text.split(|c: char| !c.is_alphanumeric()));
+        let is_unknown = |word: &&str| !texts.iter().any(|text| text.contains(&word.to_lowercase()));
+        let hints = words.split_whitespace().filter(is_unknown).map(|word| did_you_mean(word, known()));
+        hint = hints.into_iter().find(|hint| !hint.is_empty()).unwrap_or_default();
+    }
     Failure::input(format!(
-        "no claim is called `{words}` or holds it{}; `{}` lists all {}",
-        did_you_mean(words, claims),
+        "no claim and no choice is called `{words}`, and no claim holds it{hint}; `{}` lists all {} claims",
         which.command("show"),
         verdicts.claims.len()
     ))
@@ -106,7 +141,8 @@ fn shown(judged: &ClaimVerdict) -> String {
         ("quote", judged.quote.as_ref().map(|quote| format!("“{quote}”"))),
         ("printed", judged.printed_text()),
         ("interpretations", judged.rests_on()),
-        ("under the defaults", Some(judged.outcome.name().to_owned())),
+        // The line of the interpretations begins with the same.
+        ("under the defaults", judged.across.is_none().then(|| judged.outcome.name().to_owned())),
         ("second seed", judged.second.map(|outcome| outcome.name().to_owned())),
         ("part of", judged.part_of.clone()),
         ("must hold", judged.theorem.clone()),

@@ -65,7 +65,7 @@ pub struct Experiment {
     pub name: String,
     /// The root of the run's seeds.
     pub seed: u64,
-    /// How the records were made.
+    /// The program and the command that made the records.
     pub setup: String,
     /// The processor that read the clock, if it is known.
     pub cpu: String,

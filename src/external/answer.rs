@@ -57,15 +57,15 @@ fn sliced<Q, A>(
 /// How many questions were answered.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct QuestionCounts {
-    /// Batches.
+    /// Batches of questions.
     pub batches: u64,
-    /// Configurations.
+    /// Configurations that were checked.
     pub valid: u64,
-    /// Motions.
+    /// Motions that were checked.
     pub motion: u64,
-    /// Postures.
+    /// Configurations with the poses that were computed from them.
     pub fk: u64,
-    /// Poses.
+    /// Poses with the configurations that were computed from them.
     pub ik: u64,
 }
 

@@ -23,13 +23,13 @@ pub struct Print {
 /// True values between two exact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Span {
-    /// The lower end …
+    /// The lower end.
     pub low: Exact,
-    /// … and whether it is a member.
+    /// Whether the span holds its lower end.
     pub low_closed: bool,
-    /// The upper end …
+    /// The upper end.
     pub high: Exact,
-    /// … and whether it is a member.
+    /// Whether the span holds its upper end.
     pub high_closed: bool,
 }
 

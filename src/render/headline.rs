@@ -6,7 +6,7 @@ use super::effect::{effect, percentage, side_by_side};
 use super::figure::noun;
 use super::prose::number;
 use super::tables::short;
-use crate::analysis::verdict::{ClaimVerdict, Quantity, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, Estimate, Quantity, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
 use study::paper::Paper;
 
@@ -94,7 +94,10 @@ fn meanings(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     }
     let of_each: Vec<String> = counts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
     let all: usize = counts.iter().map(|(_, count)| count).sum();
-    (counts.len() > 1).then(|| format!("it can mean {all} things: {}", of_each.join(", ")))
+    let all = ["two", "three", "four", "five", "six", "seven", "eight", "nine"]
+        .get(all.wrapping_sub(2))
+        .map_or_else(|| all.to_string(), ToString::to_string);
+    (counts.len() > 1).then(|| format!("{all} readings of the sentence: {}", of_each.join(", ")))
 }
 
 /// How much was explored, and the command that does it again. A headline names the choices that were not varied for it.
@@ -117,9 +120,7 @@ pub fn ours(judged: &ClaimVerdict, paper: &Paper, verdicts: &Verdicts) -> Option
         let printed =
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
         let number = match ours.quantity {
-            Quantity::Rank => {
-                format!("{} of our {noun} are at least as unusual as the printed numbers", percentage(ours))
-            }
+            Quantity::Rank => rank(ours, noun),
             Quantity::Probability if ours.value < LEAST_P => format!("p below {LEAST_P}"),
             Quantity::Probability => {
                 let times = judged.multiplied().map_or_else(String::new, |times| format!(", times {times}"));
@@ -135,6 +136,19 @@ pub fn ours(judged: &ClaimVerdict, paper: &Paper, verdicts: &Verdicts) -> Option
     let [numbers, n] = side_by_side(&verdicts.parts_ours(judged))?;
     let noun = if n == "1" { counted(1, noun) } else { noun };
     Some(format!("{numbers} (n = {n} {noun})"))
+}
+
+/// From this share on the printed numbers are called ordinary among ours.
+const ORDINARY: f64 = 0.2;
+
+/// How many of our instances are at least as far from the mean as the printed numbers.
+fn rank(ours: &Estimate, noun: &str) -> String {
+    let share = percentage(ours);
+    if ours.value < ORDINARY {
+        format!("only {share} of our {noun} lie as far from the mean as the printed numbers")
+    } else {
+        format!("ordinary, as {share} of our {noun} lie as far from the mean")
+    }
 }
 
 /// The noun for so many instances: the plural without its s for one.

@@ -33,8 +33,8 @@ pub fn prose(text: &str, verdicts: &Verdicts) -> String {
             "fits" => judged.and_then(|judged| judged.by_option(FITS)).map(str::to_owned),
             "refuses" => judged.and_then(|judged| judged.by_option(REFUSES)).map(str::to_owned),
             "power" => judged.and_then(ClaimVerdict::power).map(str::to_owned),
-            "low" => interval.map(|[low, _]| number(low)),
-            "high" => interval.map(|[_, high]| number(high)),
+            "low" => interval.map(|[low, _]| three_digits(low)),
+            "high" => interval.map(|[_, high]| three_digits(high)),
             _ => ours.map(|ours| number(ours.value)),
         };
         found.unwrap_or_else(|| "–".to_owned())
@@ -46,6 +46,12 @@ pub fn capital(name: &str) -> String {
     let mut letters = name.chars();
     let first = letters.next().map(|letter| letter.to_ascii_uppercase());
     first.into_iter().chain(letters).collect()
+}
+
+/// A number with three significant digits, those before the point kept.
+fn three_digits(value: f64) -> String {
+    let digits = libm::floor(libm::log10(value.abs()));
+    if digits.is_finite() { rounded(value, (2.0 - digits).max(0.0) as usize) } else { number(value) }
 }
 
 /// A number with four decimals at most; what these would show as zero stands as a power of ten.

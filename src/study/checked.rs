@@ -254,7 +254,7 @@ impl Study {
     }
 
     /// The points of the sweeps that trials on `groups` can have and that meet one of `texts`. A text is a condition
-    /// (`samples<=1400`), several joined by commas that are met together, or a point's own name.
+    /// (`samples<=1400`), several conditions joined by commas that must all hold, or a point's own name.
     ///
     /// # Errors
     /// A text that no point meets, by its place, in words.

@@ -72,7 +72,7 @@ const MANY: usize = 32;
 pub struct Guide(Option<Landmarks>);
 
 impl Guide {
-    /// For these queries in `world`.
+    /// Landmarks for `queries` in `world`; nothing for few queries, or where `world` is no grid.
     pub fn new(world: &World, queries: &[Query]) -> Self {
         let lattice = world.as_lattice().filter(|lattice| lattice.cornered().is_none());
         let lattice = lattice.filter(|_| queries.len() >= MANY);

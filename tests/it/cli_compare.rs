@@ -119,13 +119,48 @@ fn show_searches_names_and_sentences_of_claims() {
     let several = bench.done(&["show", "a", "o"]);
     assert!(several.contains("cost  ") && several.contains("\n  section 1: two sides open"), "{several}");
     assert!(several.ends_with("2 claims hold “o”; one in full: replan show a CLAIM\n"), "{several}");
-    let none = bench.run(&["show", "a", "nodess"]);
-    assert_eq!(none.code, Some(2));
-    assert!(
-        none.err.contains("no claim is called `nodess` or holds it (did you mean `nodes`?)"),
-        "{}",
-        none.err
-    );
+    for (misspelt, meant) in [("nodess", "nodes"), ("two fewwer", "fewer")] {
+        let arguments = ["show", "a", misspelt];
+        let none = bench.run(&arguments);
+        let message = format!(
+            "no claim and no choice is called `{misspelt}`, and no claim holds it (did you mean `{meant}`?)"
+        );
+        assert_eq!(none.code, Some(2));
+        assert!(none.err.contains(&message), "{}", none.err);
+    }
+}
+
+#[test]
+fn show_and_list_find_a_choice_by_its_id_and_show_by_an_option_of_it() {
+    let bench = Bench::new();
+    bench.done(&["repro", "./mini"]);
+    let choice = "corners\n  options: allow, forbid_any\n  default: allow\n  why: not said\n";
+    assert_eq!(bench.done(&["show", "./mini", "corners"]), choice);
+    assert_eq!(bench.done(&["show", "./mini", "forbid_any"]), choice);
+    fs::create_dir(bench.at("experiments")).unwrap();
+    fs::rename(bench.at("mini"), bench.at("experiments/mini")).unwrap();
+    assert_eq!(bench.done(&["list", "choices", "corners"]), choice);
+    assert_eq!(bench.done(&["list", "choices", "mini/corners"]), choice);
+    let all = bench.done(&["list", "choices", "mini"]);
+    assert!(all.contains("mini/corners\n") && all.contains("mini/nodes\n"), "{all}");
+}
+
+#[test]
+fn a_long_list_of_names_is_no_answer_to_a_wrong_one() {
+    let bench = Bench::empty();
+    let output = bench.run(&["list", "metrics", "path_cost_cels"]);
+    let line = output.err.trim_end();
+    assert!(line.contains("(did you mean `path_cost_cells`?); `replan list metrics` lists all "), "{line}");
+    assert!(line.len() < 150, "{line}");
+}
+
+#[test]
+fn show_gives_the_result_under_the_defaults_once() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_replan"));
+    let output = command.args(["show", "zhang", "sentence.turns"]).current_dir(root).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text.matches("under the defaults").count(), 1, "{text}");
 }
 
 #[test]

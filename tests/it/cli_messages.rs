@@ -53,7 +53,7 @@ fn a_name_that_is_nearly_right_is_answered_with_the_right_one() {
         (&["compare", "mini", "--contenders", "A*", "Two-side"], "Two-sided"),
         (&["show", "mini", "nodse"], "nodes"),
         (&["list", "studies", "mini/drawn"], "mini/draws"),
-        (&["list", "studies", "draws"], "mini/draws"),
+        (&["list", "studies", "drawss"], "draws"),
     ] {
         let output = bench.run(arguments);
         assert_eq!(output.code, Some(2), "{arguments:?}: {}{}", output.out, output.err);

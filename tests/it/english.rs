@@ -318,6 +318,47 @@ fn every_help_is_written_in_short_plain_sentences() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+/// Keys of specs that hold sentences of ours, beside those that pages show.
+const SENTENCES: [&str; 3] = ["why", "notes", "changed_after_run"];
+
+/// The texts below `value` that stand under a key of [`SENTENCES`]; `is_one` says whether `value` does.
+fn own_sentences(value: &toml::Value, is_one: bool, found: &mut Vec<String>) {
+    match value {
+        toml::Value::String(text) if is_one => found.push(text.clone()),
+        toml::Value::Array(all) => all.iter().for_each(|one| own_sentences(one, is_one, found)),
+        toml::Value::Table(table) => {
+            for (key, value) in table {
+                own_sentences(value, SENTENCES.contains(&key.as_str()), found);
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn reasons_and_notes_of_specs_are_written_in_short_plain_sentences() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments");
+    let mut texts = 0;
+    let mut found = Vec::new();
+    for folder in fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()) {
+        for path in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.extension().is_none_or(|ending| ending != "toml") {
+                continue;
+            }
+            let spec: toml::Value = toml::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+            let mut own = Vec::new();
+            own_sentences(&spec, false, &mut own);
+            texts += own.len();
+            for text in own {
+                // A reason is no page: its few sentences have no mean.
+                found.extend(faults(&path.display().to_string(), &sentences(&text, true)));
+            }
+        }
+    }
+    assert!(texts > 200, "{texts} texts");
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
 /// The captions of a page in Markdown: the paragraphs that follow images, as they are read.
 fn captions(page: &str) -> Vec<String> {
     let paragraphs: Vec<&str> = page.split("\n\n").collect();

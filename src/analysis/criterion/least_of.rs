@@ -79,7 +79,7 @@ const FEWEST_SEEDS: usize = 4;
 /// One contender on one problem.
 struct Side {
     values: Vec<f64>,
-    /// Those of trials that came to an end.
+    /// Values of the trials that ended within their budget.
     ended: Vec<f64>,
     median: f64,
     interval: [f64; 2],

@@ -57,7 +57,7 @@ struct Settings {
     /// Whether it is claimed to be lower or higher than `against`.
     #[serde(default)]
     is: Way,
-    /// By how many per cent at least; along a sweep it is any difference that counts.
+    /// The least difference in per cent. Along a sweep any difference counts.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     by_percent: f64,

@@ -106,11 +106,11 @@ impl Hits {
             Self::Above => "trials above",
             Self::Lower => "cases on which it is lower",
             Self::Higher => "cases on which it is higher",
-            Self::LowerThroughout => "instances on every case of which it is lower",
-            Self::SolvedMore => "instances of which it solves more",
-            Self::SolvedMoreThroughout => "instances of which it solves more at every point of the sweep",
+            Self::LowerThroughout => "instances where it is lower in every case",
+            Self::SolvedMore => "instances where it solves more cases",
+            Self::SolvedMoreThroughout => "instances where it solves more at every point of the sweep",
             Self::Cured => "cases that it solves of those that the other fails",
-            Self::SolvedAtLeast => "instances of which it solves at least",
+            Self::SolvedAtLeast => "instances where it solves at least",
         }
     }
 }

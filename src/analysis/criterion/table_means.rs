@@ -167,7 +167,7 @@ struct RowResult<'a> {
     p: f64,
     /// T², and its numbers of cells and of instances; `None` if all cells are exact.
     test: Option<(f64, usize, usize)>,
-    /// The cells that say most, in words.
+    /// The cells that weigh most in T², in words.
     loudest: Vec<String>,
     /// The cell that is farthest from what is printed, by its place in the row.
     farthest: usize,

@@ -64,11 +64,15 @@ impl Test for Clock {
         let (first, last) = ticks(prints[0], self.tick).unwrap_or((1, 0));
         let tick = self.tick;
         if is_possible {
-            return format!("{printed} is printed by {first} ticks of {tick}");
+            return format!("{first} ticks of {tick} print as {printed}");
         }
         let places = printed.decimals() as usize + 2;
         let at = |k: i128| multiple(tick, k, places);
-        format!("{printed} is no multiple of {tick}: next to it are {} and {}", at(last), at(first))
+        format!(
+            "{printed} is not a multiple of {tick}; the nearest multiples are {} and {}",
+            at(last),
+            at(first)
+        )
     }
 
     fn premises(&self) -> Vec<String> {

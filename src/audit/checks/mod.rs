@@ -62,7 +62,7 @@ pub trait Test {
     /// The premises that the answer rests on.
     fn premises(&self) -> Vec<String>;
 
-    /// The range of prints of the first number over which power is stated; if none, as far to either side as it is from 0, and
+    /// The range of the first number over which power is stated; if none, between 0 and twice the printed one, and
     /// 100 units of the last place at least.
     fn window(&self) -> Option<Window> {
         None

@@ -72,9 +72,29 @@ fn beside<'a>(r: &Sample, column: usize, samples: &'a [Sample]) -> Option<&'a Sa
 fn build(relation: &Relation, input: &Input) -> Result<Box<dyn Test>, Fault> {
     let samples =
         [relation.sample("ratio", input)?, relation.sample("of", input)?, relation.sample("over", input)?];
-    let test = of_samples(samples);
-    let test = test.ok_or_else(|| relation.fault("the three samples need quantiles and one n"))?;
+    let found: Vec<String> = samples.iter().map(described).collect();
+    let test = of_samples(samples).ok_or_else(|| {
+        let found = found.join(", ");
+        relation.fault(format!("the three samples need quantiles and the same n; found: {found}"))
+    })?;
     Ok(Box::new(test))
+}
+
+/// A sample's name with its n and how many quantiles are printed of it.
+fn described(sample: &Sample) -> String {
+    let n = sample.n.map_or_else(|| "no n".to_owned(), |n| format!("n = {n}"));
+    let quantiles = sample.numbers.iter().filter(|(statistic, _)| share(*statistic).is_some()).count();
+    format!("`{}` with {n} and {quantiles} quantiles", sample.name)
+}
+
+/// The share of values at or below a quantile; `None` for other statistics.
+fn share(statistic: Statistic) -> Option<Exact> {
+    match statistic {
+        Statistic::Min => Some(whole(0)),
+        Statistic::Max => Some(whole(1)),
+        Statistic::Quantile(parts) => Some(Exact::new(i128::from(parts), 10_000)),
+        _ => None,
+    }
 }
 
 fn of_samples(samples: [Sample; 3]) -> Option<RatioLabel> {
@@ -86,12 +106,7 @@ fn of_samples(samples: [Sample; 3]) -> Option<RatioLabel> {
     let mut kinds = Vec::new();
     for (which, sample) in samples.iter().enumerate() {
         for (statistic, number) in &sample.numbers {
-            let share = match statistic {
-                Statistic::Min => whole(0),
-                Statistic::Max => whole(1),
-                Statistic::Quantile(parts) => Exact::new(i128::from(*parts), 10_000),
-                _ => continue,
-            };
+            let Some(share) = share(*statistic) else { continue };
             numbers.push(number.clone());
             kinds.push((which, share));
         }

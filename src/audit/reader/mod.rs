@@ -242,7 +242,7 @@ fn check_references(columns: &[Column], line: usize, faults: &mut Vec<Fault>) {
             } else if named_by(columns, index, name).is_none() {
                 let count = names.iter().filter(|other| **other == name).count();
                 format!(
-                    "names the column `{name}`, of which there are {count}; a name that stands once is accepted"
+                    "names the column `{name}`, which stands {count} times; a name that stands once is accepted"
                 )
             } else {
                 continue;

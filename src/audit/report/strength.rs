@@ -50,7 +50,7 @@ impl fmt::Display for Power {
             "100" if refused < tried => "more than 99".to_owned(),
             _ => share,
         };
-        write!(f, "refuses {share} % of {tried} prints from {low} to {high}, {why}")?;
+        write!(f, "refuses {share} % of {tried} values from {low} to {high}, {why}")?;
         if *is_beyond { write!(f, ", and what is printed beyond them") } else { Ok(()) }
     }
 }
@@ -91,7 +91,7 @@ pub fn window(test: &dyn Test, first: Printed) -> Option<(i64, i64, &'static str
         let why = if first.units().abs() < 100 {
             "100 units of the last place to either side"
         } else {
-            "as far to either side as it is from 0"
+            "between 0 and twice the printed one"
         };
         (first.units() - around, first.units() + around, why)
     };

@@ -42,9 +42,9 @@ impl Page<'_> {
             return;
         };
         let mut about = format!(
-            "Explored: {} interpretations, {} trials. A verdict counts those that vote (by the paper's words or a practice) and are compatible \
-             with what the studies were calibrated to, equal results once; a result against most others counts only if the second seed \
-             gives it too.",
+            "Explored: {} interpretations, {} trials. An interpretation votes if the paper's words or a practice support each of its options. \
+             A verdict counts those that vote and agree with what the studies were calibrated to. Equal results count once. A result \
+             against most others counts only if the second seed gives it too.",
             explored.interpretations, explored.trials
         );
         if explored.none_compatible {
@@ -108,7 +108,7 @@ fn votes(choice: &Choice) -> Vec<String> {
     let mut lines: Vec<String> = voting.filter_map(|(name, option)| source(name, option)).collect();
     let lost = choice.not_run().map(|(name, why)| {
         format!(
-            "{name} cannot be run here: {why}; claims on studies that inherit the choice stay inconclusive"
+            "{name} cannot be run here: {why}. Claims on studies that inherit the choice stay inconclusive."
         )
     });
     lines.extend(lost);
@@ -128,18 +128,21 @@ pub fn across_lines(judged: &ClaimVerdict) -> impl Iterator<Item = String> {
         let more = [
             (across.not_looked_at, "do not look at it or lack power"),
             (across.incompatible, "contradict what the studies were calibrated to"),
-            (across.unconfirmed, "results against most others that no second seed confirms count as open"),
+            (
+                across.unconfirmed,
+                "differ from most others, are not confirmed by the second seed, and count as open",
+            ),
         ];
         if !across.refused.is_empty() {
             parts.push(format!(
-                "set apart, as the verifier refuses their paths: {}",
+                "set apart because the verifier refuses their paths: {}",
                 across.refused.join(" · ")
             ));
         }
         parts.extend(
             more.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")),
         );
-        format!("under the defaults {}; {}", judged.outcome.name(), parts.join(", "))
+        format!("under the defaults: {}; {}", judged.outcome.name(), parts.join(", "))
     });
     let moves = across.into_iter().flat_map(|across| {
         let moving = across.effects.iter().filter(|(_, of)| of.effect > Effect::Number);

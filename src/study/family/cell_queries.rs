@@ -124,7 +124,7 @@ struct CellQueries {
     #[serde(default = "once")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     radius_times: f64,
-    /// By how much it is multiplied at least, for planners whose neighbours may be farther apart.
+    /// The least factor on the radius with which the roadmap is built, for planners whose neighbours may be farther apart.
     #[schemars(extend("exclusiveMinimum" = 0))]
     built_times: Option<f64>,
     /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints.

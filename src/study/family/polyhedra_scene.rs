@@ -51,7 +51,7 @@ const MM_PER_CM: f64 = 10.0;
 struct SceneSettings {
     /// The scene file; with a table `[drawn]`, a scene is drawn with each instance, and the arm can stand at its start and goal.
     scene: String,
-    /// What is laid over the scene file: elements of lists go by their number from 0 or their `name`.
+    /// Values that replace those of the scene file. Elements of lists are named by their number from 0 or by their `name`.
     #[schemars(with = "Option<AnyTable>")]
     scene_with: Option<Table>,
     /// The side of a lattice cell.

@@ -29,11 +29,11 @@ pub struct ReportSpec {
 /// How many figures a chapter shows at most.
 pub const FIGURES: usize = 6;
 
-/// The forms in which a text can show our number beside a claim: with one decimal, as a percentage with the digits of its interval,
-/// the least of that percentage, or in words with a direction. Of a claim with parts the words are those of its parts. Other forms give
-/// a shown number that decides nothing, the interval or one of its ends, the number of instances, or that of the cases that could be
-/// posed. The rest give the verdict, the words beside it, or the printed values that would have been refused. Of a joint test two give
-/// the options that fit and those that do not.
+/// The forms in which a text can show our number beside a claim. It may stand with one decimal, as a percentage (or the least of it) with
+/// the digits of its interval, or in words with a direction. Of a claim with parts the words are those of its parts. Other forms give a
+/// shown number that decides nothing, the interval or one of its ends, the number of instances, or that of the cases that could be posed.
+/// The rest give the verdict, the words beside it, or the printed values that would have been refused. The ends of an interval have three
+/// significant digits. Of a joint test two give the options that fit and those that do not.
 pub const FORMS: [&str; 15] = [
     "tenths",
     "percent",

@@ -90,10 +90,10 @@ fn a_name_of_two_columns_or_rows_is_not_taken_for_the_first() {
     let sides =
         "p,a [value],b [value],t [value, sum=a+b],a [value],b [value],t [value, sum=a+b]\nA,1,2,3,5,6,11\n";
     let expected =
-        "1:4: column `t` names the column `a`, of which there are 2; a name that stands once is accepted";
+        "1:4: column `t` names the column `a`, which stands 2 times; a name that stands once is accepted";
     assert_eq!(fault(sides), expected);
     let counts = "p,n [value],x [mean, integers, n=n],n [value],y [mean, integers, n=n]\nA,3,2.33,4,2.25\n";
-    assert!(fault(counts).starts_with("1:3: column `x` names the column `n`, of which there are 2"));
+    assert!(fault(counts).starts_with("1:3: column `x` names the column `n`, which stands 2 times"));
     // A name that a deviation has as well names the mean.
     let spread = "p,a [sd],a [mean],b [mean],t [mean, sum=a+b]\nA,9.0,1.0,2.0,3.0\n";
     assert_eq!((classes(spread), report_on(spread).tally["sum_of_means"].applied), (vec![], 1));

@@ -135,7 +135,7 @@ fn power_names_its_range_and_why() {
     let ranged = "p,t [mean],t [sd],t [min],t [max]\nA,2.0,1.0,1.0,4.0\n";
     let line = output::line("t.csv", &found(ranged, Format::Csv, "sd_range"));
     assert!(
-        line.contains(" prints from 0.0 to 2.3, up to the greatest that values between the ends have"),
+        line.contains(" values from 0.0 to 2.3, up to the greatest that values between the ends have"),
         "{line}"
     );
 }

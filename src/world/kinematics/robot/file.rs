@@ -60,9 +60,9 @@ struct ToolEntry {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BodyEntry {
-    /// Its name.
+    /// The name of the body.
     name: Spanned<String>,
-    /// Its capsules.
+    /// The capsules that it consists of.
     capsule: Vec<Spanned<CapsuleEntry>>,
     /// Pairs of capsules, by name, that must not touch.
     self_pairs: Vec<Spanned<[Spanned<String>; 2]>>,

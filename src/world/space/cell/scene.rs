@@ -72,7 +72,7 @@ struct BoxEntry {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct SphereEntry {
-    /// Its name.
+    /// The name of the sphere.
     name: String,
     /// x, y and z of the centre.
     #[schemars(inner(range(min = -FARTHEST_MM, max = FARTHEST_MM)))]
