@@ -7,7 +7,6 @@ use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
 use crate::render::headline::{Headline, headlines};
 use crate::render::prose::{plain, prose};
-use study::Choice;
 use study::paper::Paper;
 
 /// How many claims that cannot be true are named.

@@ -45,21 +45,20 @@ impl Show {
             return Ok(());
         }
         let words = self.words.join(" ");
-        let found = match verdicts.claim(&words) {
-            Some(judged) => vec![judged],
-            None => {
-                let choices = choices(&which);
-                let found = holding(&verdicts, &words);
-                let is_named = |choice: &Choice| choice.id == words || choice.options.contains_key(&words);
-                let named: Vec<&Choice> = choices.iter().filter(|choice| is_named(choice)).collect();
-                if named.is_empty() && found.is_empty() {
-                    return Err(none_holds(&verdicts, &choices, &words, &which));
-                }
-                for choice in named {
-                    say!("{}", list::choice_alone(choice));
-                }
-                found
+        let found = if let Some(judged) = verdicts.claim(&words) {
+            vec![judged]
+        } else {
+            let choices = choices(&which);
+            let found = holding(&verdicts, &words);
+            let is_named = |choice: &Choice| choice.id == words || choice.options.contains_key(&words);
+            let named: Vec<&Choice> = choices.iter().filter(|choice| is_named(choice)).collect();
+            if named.is_empty() && found.is_empty() {
+                return Err(none_holds(&verdicts, &choices, &words, &which));
             }
+            for choice in named {
+                say!("{}", list::choice_alone(choice));
+            }
+            found
         };
         match &found[..] {
             [] => {}
