@@ -16,6 +16,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use stats::interval::Interval;
 use stats::means::{FEWEST_NORMAL, interval_of_mean, predicted_mean, predicted_normal};
+use study::paper::Claim;
 use toml::Value;
 
 /// The registry's entry.
@@ -50,6 +51,15 @@ struct Settings {
     /// How many instances the printed mean is over.
     #[schemars(range(min = 1))]
     instances: u32,
+}
+
+/// The contenders whose mean `claim` holds against a printed one, and the one that they are compared with.
+pub(super) fn contenders(claim: &Claim) -> Vec<String> {
+    let settings = claim.check(ENTRY.name).and_then(|settings| settings.read::<Settings>().ok());
+    let asked = |settings: Settings| {
+        settings.select.contender.listed().into_iter().chain(settings.select.against).collect()
+    };
+    settings.map_or_else(Vec::new, asked)
 }
 
 /// A printed mean with the trials that it is held against.

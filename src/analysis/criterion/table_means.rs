@@ -93,11 +93,19 @@ pub fn interpretations(paper: &Paper, claim: &Claim) -> usize {
     touching(paper, claim).values().map(|choice| voting(choice)).product()
 }
 
-/// The choices that touch the trials of the studies that `claim` looks at, by id.
+/// The choices that set something of the trials that the cells of `claim` look at, by id.
 pub fn touching<'p>(paper: &'p Paper, claim: &Claim) -> BTreeMap<&'p str, &'p Choice> {
-    let studies = places(claim).filter_map(|place| paper.study(&place.study));
-    let choices = studies.flat_map(|study| &study.choices).filter(|choice| choice.touches_trials);
-    choices.map(|choice| (choice.id.as_str(), choice)).collect()
+    let mut found = BTreeMap::new();
+    for place in places(claim) {
+        let Some(study) = paper.study(&place.study) else { continue };
+        let cells = paper.claims.iter().filter(|cell| place.claims.contains(&cell.id));
+        let asked: Vec<String> = cells.flat_map(mean_of::contenders).collect();
+        let contenders = || study.contenders.iter().filter(|contender| asked.contains(&contender.label));
+        let sets = |choice: &&Choice| contenders().any(|contender| contender.is_set_by(choice));
+        let choices = study.choices.iter().filter(|choice| choice.touches_trials).filter(sets);
+        found.extend(choices.map(|choice| (choice.id.as_str(), choice)));
+    }
+    found
 }
 
 impl<'a> TableMeans<'a> {
