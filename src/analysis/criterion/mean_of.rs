@@ -56,10 +56,10 @@ struct Settings {
 /// The contenders whose mean `claim` holds against a printed one, and the one that they are compared with.
 pub(super) fn contenders(claim: &Claim) -> Vec<String> {
     let settings = claim.check(ENTRY.name).and_then(|settings| settings.read::<Settings>().ok());
-    let asked = |settings: Settings| {
+    let compared = |settings: Settings| {
         settings.select.contender.listed().into_iter().chain(settings.select.against).collect()
     };
-    settings.map_or_else(Vec::new, asked)
+    settings.map_or_else(Vec::new, compared)
 }
 
 /// A printed mean with the trials that it is held against.

@@ -99,8 +99,8 @@ pub fn touching<'p>(paper: &'p Paper, claim: &Claim) -> BTreeMap<&'p str, &'p Ch
     for place in places(claim) {
         let Some(study) = paper.study(&place.study) else { continue };
         let cells = paper.claims.iter().filter(|cell| place.claims.contains(&cell.id));
-        let asked: Vec<String> = cells.flat_map(mean_of::contenders).collect();
-        let contenders = || study.contenders.iter().filter(|contender| asked.contains(&contender.label));
+        let labels: Vec<String> = cells.flat_map(mean_of::contenders).collect();
+        let contenders = || study.contenders.iter().filter(|contender| labels.contains(&contender.label));
         let sets = |choice: &&Choice| contenders().any(|contender| contender.is_set_by(choice));
         let choices = study.choices.iter().filter(|choice| choice.touches_trials).filter(sets);
         found.extend(choices.map(|choice| (choice.id.as_str(), choice)));
