@@ -1,5 +1,6 @@
 """Trials that did not come to an end: what they would have given is not known."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,10 +12,12 @@ from statistics_judge.classes import FAILS, HOLDS
 from statistics_judge.found import Found, hangs
 from statistics_judge.judge import is_few, selections_of
 from statistics_judge.printed import Printed
+from statistics_judge.records import Metric
 from statistics_judge.selection import Cases, matched, select
 
 SPENT, NONE, REFUSED = "budget_spent", "no_path", "rejected"
 Ends = list[tuple[float | str, float | str]]
+COST = Metric("cost", "cost", 1.0, None, "lower", clock=False, status=False)
 
 
 def asked(ends: Ends, settings: dict[str, Any]) -> SimpleNamespace:
@@ -30,7 +33,7 @@ def asked(ends: Ends, settings: dict[str, Any]) -> SimpleNamespace:
         spec={"problems": [{"label": "g", "family": "grid_map"}, {"label": "h", "family": "random_cells"}]},
     )
     place = np.arange(len(ends))
-    metric = SimpleNamespace(better="lower", name="cost")
+    metric = COST
     cases = Cases(study, metric, 1, "B", 2 * place, 2 * place + 1, place, np.zeros(len(ends), dtype=int))
     settings = {"select": {"problems": ["g"]}, **settings}
     return SimpleNamespace(cases=lambda **other: cases, settings=settings, seed="a test", paper=None)
@@ -289,9 +292,14 @@ def drawn(status: list[str], *, family: str, repeats: int = 1) -> tuple[SimpleNa
         groups=["g"],
         spec={"problems": [{"label": "g", "family": family}]},
     )
-    metric = SimpleNamespace(better="lower", name="cost", clock=False)
-    paper = SimpleNamespace(studies={"s": study}, metric=lambda name: metric)
+    paper = SimpleNamespace(studies={"s": study}, metric=lambda name: COST)
     return paper, {"study": "s", "problems": ["g"], "contender": "A", "metric": "cost"}
+
+
+def test_what_a_search_counts_holds_where_its_path_is_refused_and_what_a_path_has_does_not() -> None:
+    status = np.array(["solved", REFUSED, NONE, SPENT])
+    assert COST.given(status).tolist() == [True, False, False, False]
+    assert replace(COST, of_search=True).given(status).tolist() == [True, True, False, False]
 
 
 @pytest.mark.parametrize(("lost", "is_cut"), [("solved", False), (NONE, False), (SPENT, True)])

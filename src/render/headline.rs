@@ -145,9 +145,9 @@ const ORDINARY: f64 = 0.2;
 fn rank(ours: &Estimate, noun: &str) -> String {
     let share = percentage(ours);
     if ours.value < ORDINARY {
-        format!("only {share} of our {noun} lie as far from the mean as the printed numbers")
+        format!("only {share} of our {noun} lie at least as far from the mean as the printed numbers")
     } else {
-        format!("ordinary, as {share} of our {noun} lie as far from the mean")
+        format!("ordinary: {share} of our {noun} lie at least as far from the mean")
     }
 }
 
