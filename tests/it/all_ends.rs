@@ -6,8 +6,13 @@ use replan::analysis::verdict::Estimate;
 
 /// The mean of `selected` in a toy of which many maps have no path, and in which lines of sight cut corners.
 fn mean(selected: &str) -> (Estimate, Vec<String>) {
+    asked("within", "statistic = \"mean\", accepted = [0.0, 1e6]", selected)
+}
+
+/// What `criterion` with these settings finds of `selected` in that toy.
+fn asked(criterion: &str, settings: &str, selected: &str) -> (Estimate, Vec<String>) {
     let text = format!(
-        "check.within = {{ statistic = \"mean\", accepted = [0.0, 1e6], select = {{ study = \"draws\", problems = \"drawn\", {selected} }} }}"
+        "check.{criterion} = {{ {settings}, select = {{ study = \"draws\", problems = \"drawn\", {selected} }} }}"
     );
     let own = "check.lower.select = { study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\", against = \
                \"Two-sided\" }";
@@ -38,4 +43,16 @@ fn a_search_counts_where_its_path_is_refused_and_the_path_does_not() {
     let solved_by_astar = n("metric = \"path_cost_cells\", contender = \"A*\"");
     assert!(path < search, "no path is refused: {path} of {search}");
     assert_eq!(search, solved_by_astar, "a search without a path counts");
+}
+
+#[test]
+fn a_refused_path_that_gives_a_count_is_no_case_outside_of_a_claim() {
+    let selected = |metric: &str| format!("metric = \"{metric}\", contender = \"Lazy\"");
+    let above = "hits = \"above\", bound = 0.0, accepted = [0.5, 1.0]";
+    for (metric, why) in [("expansions", "no path"), ("path_cost_cells", "not solved")] {
+        let (with_number, _) = mean(&selected(metric));
+        let (_, because) = asked("share", above, &selected(metric));
+        let expected = format!("{} more cases are outside of the claim: {why}", 40 - with_number.n);
+        assert!(because.join("; ").contains(&expected), "{expected}: {because:?}");
+    }
 }
