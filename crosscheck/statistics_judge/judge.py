@@ -217,23 +217,10 @@ def lacks_sessions(stored: int, find: Callable[[int], Found]) -> bool:
 
 
 def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Compared:
-    """What verdicts.toml says, held against what was recomputed."""
+    """What verdicts.toml and estimates.parquet say, held against what was recomputed."""
     compared = Compared()
-    if verdicts["interpretation"] != paper.taken:
-        compared.differ.append(
-            f"{paper.id}: verdicts.toml was judged under other interpretations than the default"
-        )
+    if not compare_claims(paper, claims, verdicts, compared):
         return compared
-    stored = {one["claim"]: one for one in verdicts.get("claim", [])}
-    if list(stored) != [claim.id for claim in claims]:
-        compared.differ.append(
-            f"{paper.id}: verdicts.toml has other claims than paper.toml, or in another order"
-        )
-        return compared
-    known = [compare_findings(paper.id, claim, stored[claim.id], compared) for claim in claims]
-    alone = {claim.id: whole(claim, possible) for claim, possible in zip(claims, known, strict=True)}
-    for claim, possible in zip(claims, known, strict=True):
-        compare_claim(paper.id, claim, stored[claim.id], (possible, alone), compared)
     for line in across.differences(paper, verdicts):
         if line is None:
             compared.across += 1
@@ -241,6 +228,26 @@ def compare(paper: Paper, claims: list[Claim], verdicts: dict[str, Any]) -> Comp
             compared.differ.append(line)
     compare_rows(paper, claims, compared)
     return compared
+
+
+def compare_claims(paper: Paper, claims: list[Claim], verdicts: dict[str, Any], compared: Compared) -> bool:
+    """The claims under the default interpretation; whether verdicts.toml has the claims of paper.toml."""
+    if verdicts["interpretation"] != paper.taken:
+        compared.differ.append(
+            f"{paper.id}: verdicts.toml was judged under other interpretations than the default"
+        )
+        return False
+    stored = {one["claim"]: one for one in verdicts.get("claim", [])}
+    if list(stored) != [claim.id for claim in claims]:
+        compared.differ.append(
+            f"{paper.id}: verdicts.toml has other claims than paper.toml, or in another order"
+        )
+        return False
+    known = [compare_findings(paper.id, claim, stored[claim.id], compared) for claim in claims]
+    alone = {claim.id: whole(claim, possible) for claim, possible in zip(claims, known, strict=True)}
+    for claim, possible in zip(claims, known, strict=True):
+        compare_claim(paper.id, claim, stored[claim.id], (possible, alone), compared)
+    return True
 
 
 def compare_rows(paper: Paper, claims: list[Claim], compared: Compared) -> None:

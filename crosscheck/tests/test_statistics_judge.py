@@ -20,7 +20,7 @@ import pytest
 from statistics_judge import classes
 from statistics_judge.estimates import explored as cut
 from statistics_judge.found import Found
-from statistics_judge.judge import CRITERIA, Claim, Compared, compare, compare_rows, is_few, recomputed
+from statistics_judge.judge import CRITERIA, Claim, Compared, compare_claims, compare_rows, is_few, recomputed
 from statistics_judge.medians import over
 from statistics_judge.printed import Printed
 from statistics_judge.printed_cells import as_far, level_rank
@@ -146,6 +146,9 @@ def metrics() -> list[Metric]:
 
 Judged = list[tuple[Paper, list[Claim], dict]]
 
+# Recomputing these takes most of a minute, and the others have findings by every criterion.
+TAKE_LONG = ("theta", "zhang")
+
 
 def explored(name: str) -> Path:
     """What `replan crosscheck --statistics` gives the judge of a paper's explorations."""
@@ -154,9 +157,11 @@ def explored(name: str) -> Path:
 
 @pytest.fixture(scope="module")
 def judged(metrics: list[Metric]) -> Judged:
-    """Every paper with what is recomputed of it and what is stored."""
+    """Papers with what is recomputed of them and what is stored; `replan crosscheck --statistics` compares all."""
     found = []
     for path in sorted(ROOT.glob("experiments/*/paper.toml")):
+        if path.parent.name in TAKE_LONG:
+            continue
         paper = Paper(path.parent, ROOT / "data/runs" / path.parent.name, metrics, explored(path.parent.name))
         found.append((paper, recomputed(paper), stored(paper)))
     return found
@@ -164,6 +169,12 @@ def judged(metrics: list[Metric]) -> Judged:
 
 def stored(paper: Paper) -> dict:
     return tomllib.loads((paper.runs / "verdicts.toml").read_text(encoding="utf-8"))
+
+
+def differences(paper: Paper, claims: list[Claim], verdicts: dict) -> list[str]:
+    found = Compared()
+    compare_claims(paper, claims, verdicts, found)
+    return found.differ
 
 
 def wrong_value(finding: dict) -> None:
@@ -230,15 +241,9 @@ def spoiled(judged: Judged, request: pytest.FixtureRequest) -> Spoiled:
                     spoil(finding)
                     where = f"{paper.id}: `{claim['claim']}`, finding {place} ({criterion}): "
                     made.by_criterion[criterion].add(where)
-        lines = compare(paper, claims, wrong).differ
+        lines = differences(paper, claims, wrong)
         made.noticed |= {line.partition(message)[0] for line in lines if message in line}
     return made
-
-
-def test_what_is_stored_agrees(judged: Judged) -> None:
-    for paper, claims, verdicts in judged:
-        said = compare(paper, claims, verdicts)
-        assert said.differ == [], paper.id
 
 
 @pytest.mark.parametrize("criterion", CRITERIA)
@@ -256,8 +261,8 @@ def test_a_claim_of_parts_and_a_claim_made_wrong_are_noticed(judged: Judged) -> 
             wrong_outcome(stored)
             if claim.parts:
                 wrong_outcome(parts["finding"][-1])
-        said = compare(paper, claims, wrong).differ
-        said_of_parts = compare(paper, claims, wrong_parts).differ
+        said = differences(paper, claims, wrong)
+        said_of_parts = differences(paper, claims, wrong_parts)
         for claim in claims:
             assert any(line.startswith(f"{paper.id}: `{claim.id}`:") for line in said), claim.id
             if claim.parts:
@@ -272,10 +277,10 @@ def test_findings_that_are_missing_and_other_claims_are_noticed(judged: Judged) 
     paper, claims, verdicts = judged[0]
     wrong = copy.deepcopy(verdicts)
     wrong["claim"][0]["finding"].pop(0)
-    assert any("has findings" in line for line in compare(paper, claims, wrong).differ)
+    assert any("has findings" in line for line in differences(paper, claims, wrong))
     wrong = copy.deepcopy(verdicts)
     wrong["claim"].pop()
-    assert any("has other claims" in line for line in compare(paper, claims, wrong).differ)
+    assert any("has other claims" in line for line in differences(paper, claims, wrong))
 
 
 def test_an_altered_number_of_estimates_parquet_is_noticed(tmp_path: Path, metrics: list[Metric]) -> None:
