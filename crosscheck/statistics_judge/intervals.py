@@ -7,7 +7,7 @@ ALARM. No normal approximation is made, and no share of the interval's width ass
 """
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +24,7 @@ OWN = 8000
 # The probability that an end which nothing but chance moves is outside what is allowed.
 ALARM = 1e-5
 # Resamples are drawn so many at a time.
-CHUNK = 500
+CHUNK = 100
 
 Weights = npt.NDArray[np.int64]
 
@@ -133,16 +133,13 @@ def bootstrap(statistic: Callable[[Weights], Reals], units: int, seed: str) -> I
     return percentile(drawn)
 
 
-def resamples(units: int, seed: str) -> list[Weights]:
+def resamples(units: int, seed: str) -> Iterator[Weights]:
     """How often each unit is drawn in each of our resamples, some resamples at a time."""
     rng = np.random.default_rng(list(seed.encode()))
     rows = units * np.arange(CHUNK)[:, None]
-
-    def chunk() -> Weights:
+    for _ in range(OWN // CHUNK):
         drawn = rng.integers(0, units, (CHUNK, units)) + rows
-        return np.bincount(drawn.ravel(), minlength=CHUNK * units).reshape(CHUNK, units)
-
-    return [chunk() for _ in range(OWN // CHUNK)]
+        yield np.bincount(drawn.ravel(), minlength=CHUNK * units).reshape(CHUNK, units)
 
 
 def weighted_share(hits: Reals, chances: Reals, most: float, seed: str) -> Interval:
