@@ -241,7 +241,8 @@ fn the_title_of_a_choice_stands_on_the_first_screen_and_changes_nothing_that_is_
     let output = toy.0.done(&["repro", "./toy"]);
     let words = output.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
-        words.contains("holds only if weight of A* (hurry) = three") && words.contains("nothing to run"),
+        words.contains("contradicted only if weight of A* (hurry) = none")
+            && words.contains("nothing to run"),
         "{output}"
     );
     assert!(toy.0.tree(RUNS) == stored, "a title changed what is stored");
