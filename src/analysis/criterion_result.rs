@@ -25,7 +25,7 @@ pub struct CriterionResult {
     pub narrows: Narrows,
     /// The claim is met by one input among many.
     pub existential: bool,
-    /// Hardly any printed value could have been refused.
+    /// Our spread is so wide that almost any printed value would fit.
     pub powerless: bool,
     /// How many cases without a number could turn it.
     pub censored: usize,
@@ -63,14 +63,14 @@ impl CriterionResult {
         Self { outcome: Some(Outcome::Open), because: vec![because.into()], ..Self::default() }
     }
 
-    /// Open because the `instances` draws of all `ran` that have what is compared are fewer than `needs`.
+    /// Open, because only `instances` of the `ran` instances have the numbers that are compared, fewer than `needs`.
     pub fn too_few(instances: usize, ran: usize, needs: usize) -> Self {
         let because =
             format!("{instances} of {ran} instances have what is compared; at least {needs} are needed");
         Self { needs: Some(needs), ..Self::open(because) }
     }
 
-    /// It, with so many cases that did not come to an end: what is lacking is theirs.
+    /// The result with so many cases without an end, whose numbers are missing.
     #[must_use]
     pub fn hanging_on(self, unended: usize) -> Self {
         Self { censored: unended, ..self }

@@ -78,7 +78,7 @@ struct Entry {
     /// Where it takes claims over from, if they do not come from the run itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     note: Option<String>,
-    /// The last seal of an earlier history, which is gone and on which stored verdicts rest.
+    /// The last seal of an earlier history that is gone; stored verdicts rest on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     replaces: Option<String>,
     /// Claims that the paper no longer has.
@@ -262,7 +262,7 @@ impl History {
         Some(self.text.trim_end().rsplit_once(SEAL)?.1)
     }
 
-    /// It with an entry for what is new `now`, written into `folder`; as it is if nothing is.
+    /// The history with an entry for what is new `now`, written into `folder`; unchanged if nothing is new.
     fn noting(mut self, now: &Now, folder: &Path, command: &str) -> Result<Self, StudyError> {
         let Some(mut entry) = self.entry(now, command) else { return Ok(self) };
         entry.replaces = if self.entries == 0 { judged_with(folder) } else { None };

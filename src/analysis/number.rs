@@ -13,12 +13,12 @@ use stats::interval::Interval;
 /// The values taken for cases without an end, or without a number that they may have had.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Ends {
-    /// Nothing.
+    /// They are left out.
     #[default]
     Measured,
-    /// What goes one way most: the least numbers, misses, or a difference against the contender.
+    /// They go one way as far as they can: the least numbers, misses, or a difference against the contender.
     Least,
-    /// What goes the other way most.
+    /// They go the other way as far as they can.
     Most,
 }
 
@@ -39,9 +39,9 @@ impl Ends {
 /// One number with its interval, and what it rests on.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Number {
-    /// What it is of, where a test has several at once: a comparison, a point of a sweep, a cell; empty of the whole.
+    /// Which comparison, sweep point or cell it belongs to, where a test has several; empty for the whole.
     pub part: String,
-    /// What cases without an end are taken to have given.
+    /// The values taken for cases without an end.
     pub ends: Ends,
     /// The number.
     pub value: Option<f64>,
@@ -63,9 +63,9 @@ pub struct Number {
     pub solved: usize,
     /// Cases.
     pub total: usize,
-    /// Cases that did not come to an end and could be otherwise.
+    /// Cases without an end, whose outcome could go either way.
     pub unended: usize,
-    /// Cases without a number that they might have had.
+    /// Cases without a number, though they could have had one.
     pub censored: usize,
     /// Cases with a path that the verifier refuses.
     pub refused: usize,
@@ -92,7 +92,7 @@ pub struct Number {
 }
 
 impl Number {
-    /// What is counted of all cases of `instances`.
+    /// The counts over all cases of `instances`.
     pub fn of_cases(instances: &[Instance<'_>]) -> Self {
         let [solved, total] = solved(instances);
         Self {
@@ -107,14 +107,14 @@ impl Number {
         }
     }
 
-    /// It with an estimate, if there is one.
+    /// These counts with an estimate, if there is one.
     #[must_use]
     pub fn estimated(self, found: Option<Estimate>) -> Self {
         let Some(Estimate { value, interval, is_agreed, units, .. }) = found else { return self };
         Self { value: Some(value), interval: Some(interval), is_agreed, n: units, ..self }
     }
 
-    /// A value with its interval if cases without an end had given this.
+    /// The interval that results if cases without an end take these values.
     pub fn ended(ends: Ends, interval: Interval) -> Self {
         Self { ends, interval: Some(interval), ..Self::default() }
     }
@@ -157,9 +157,9 @@ pub fn whole(numbers: &[Number]) -> &Number {
 /// The numbers of one question under one interpretation, and how the trials behind them came about.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Numbers {
-    /// The numbers; of what rests on the clock those of each stored session, the first alone if none is stored.
+    /// The numbers. Those that rest on the clock come once for each stored session, once if none is stored.
     pub by_session: Vec<Vec<Number>>,
-    /// The stored sessions of the clock; 0 of what rests on none.
+    /// The stored sessions of the clock; 0 for numbers that rest on none.
     pub sessions: usize,
     /// Whether trials of all studies that it looks at ran under the interpretation.
     pub is_covered: bool,

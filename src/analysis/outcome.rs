@@ -111,15 +111,15 @@ pub struct Caps {
     pub fitted: bool,
     /// The claim is met by one input among many: it can be met.
     pub existential: bool,
-    /// Hardly any printed value could have been refused.
+    /// Our spread is so wide that almost any printed value would fit.
     pub powerless: bool,
     /// Trials without a result could turn it.
     pub censored: bool,
     /// There are fewer instances than it takes to say anything.
     pub few: bool,
-    /// It rests on our own clock, and what its sessions say of it.
+    /// It rests on our own clock: what the stored sessions say of it.
     pub clock: Option<Sessions>,
-    /// The interpretation is none under which the claim is meant.
+    /// The paper does not mean the claim under this interpretation.
     pub without_premises: bool,
     /// The paper may mean an option that cannot be run.
     pub not_run: bool,

@@ -277,7 +277,7 @@ impl<'a> Selection<'a> {
         instances
     }
 
-    /// The trials of its contenders in one group, each with that which it is held against.
+    /// The trials of its contenders in one group, each with the trial that it is compared with.
     fn compared<'e>(&self, run: &'e Run<'_>, group: &str) -> Vec<(&'e Row, Option<&'e Row>)> {
         let of = |contender: &String| {
             let own = self.rows(run, group, contender);

@@ -32,10 +32,9 @@ impl Verdicts {
         self.claims.iter().filter(|judged| judged.is_counted()).map(|judged| judged.verdict)
     }
 
-    /// How many sentences and table rows there are that do not hold by a theorem, and how many in each column of the overview.
-    pub fn tally(&self) -> Vec<usize> {
-        let of = |column: Column| self.whole().filter(|own| own.column() == column).count();
-        std::iter::once(self.whole().count()).chain(Column::ALL.map(of)).collect()
+    /// How many sentences and table rows there are in each column of the overview, without those that hold by a theorem.
+    pub fn tally(&self) -> [usize; Column::ALL.len()] {
+        Column::ALL.map(|column| self.whole().filter(|own| own.column() == column).count())
     }
 
     /// How many sentences and table rows there are of each verdict.

@@ -77,20 +77,20 @@ impl Estimate {
         Self { value, interval: None, what: what.into(), quantity, subject, n, solved: None }
     }
 
-    /// It without its interval, and without the words about that.
+    /// The estimate without its interval and the words about the interval.
     #[must_use]
     pub fn without_interval(self) -> Self {
         let words: Vec<&str> = self.what.split(", ").filter(|words| !words.contains("95 %")).collect();
         Self { interval: None, what: words.join(", "), ..self }
     }
 
-    /// It, as a number of this kind of `subject`.
+    /// The estimate, as a number of this kind of `subject`.
     #[must_use]
     pub fn measures(self, quantity: Quantity, subject: impl Into<String>) -> Self {
         Self { quantity, subject: subject.into(), ..self }
     }
 
-    /// It, of so many cases that were solved, among all.
+    /// The estimate, with how many cases were solved, and all.
     #[must_use]
     pub fn of_cases(self, solved: [usize; 2]) -> Self {
         Self { solved: Some(solved), ..self }
@@ -158,11 +158,11 @@ pub struct Across {
     pub counted: usize,
     /// How many interpretations these results come from.
     pub looked: usize,
-    /// Of the results, those that speak for it.
+    /// How many results speak for it.
     pub holds: usize,
-    /// Those that leave it open.
+    /// How many leave it open.
     pub open: usize,
-    /// Those that speak against it.
+    /// How many speak against it.
     pub fails: usize,
     /// Results against the majority that no second seed confirms: they count as open.
     pub unconfirmed: usize,
@@ -258,8 +258,8 @@ pub struct ClaimVerdict {
     pub unit: Option<String>,
     /// The verdict.
     pub verdict: Verdict,
-    /// What stands beside it: over how many interpretations it is the same or the counts for, open and against; then its exceptions,
-    /// on what it depends, and what was calibrated and what was not varied.
+    /// The words beside it. First the counts for, open and against, or how many interpretations agree. Then its exceptions, the
+    /// choice that it depends on, and the choices that were calibrated or not varied.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<String>,
     /// On what it depends.
@@ -276,16 +276,16 @@ pub struct ClaimVerdict {
     /// Choices that touch it and are settled, each with its option: the calibration of the studies refuses every other.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub calibrated: Vec<String>,
-    /// Why it must hold, if it is asserted and not found out.
+    /// Why it must hold, if it is a theorem.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub theorem: Option<String>,
     /// The sentence or table row that it is a part of, and with which it counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part_of: Option<String>,
-    /// What was changed in how it is judged after a run had been seen, and why.
+    /// What changed in how it is judged after a run had been seen, and why.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub changed_after_run: Option<String>,
-    /// What it meant was changed after its data had been seen: each time, as `history.toml` has it.
+    /// Each change of its meaning after its data had been seen, as in `history.toml`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<String>,
     /// Its outcome under the default interpretation on the second seed.
@@ -319,7 +319,7 @@ impl ClaimVerdict {
         because.find(|text| text.starts_with(POSSIBLE)).map(String::as_str)
     }
 
-    /// Its verdict in a word or, of what must hold, that it was asserted.
+    /// Its verdict in a word; of a theorem, that it was asserted.
     pub fn word(&self) -> &'static str {
         match self.theorem {
             Some(_) if self.outcome == Outcome::Holds => "asserted, holds",

@@ -2,7 +2,6 @@
 
 use super::Which;
 use super::verdicts::{COLUMNS, Lines, coloured, tallied};
-use crate::analysis::outcome::Outcome;
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
 use crate::render::headline::{Headline, headlines};
@@ -28,14 +27,8 @@ const VERDICT: usize = 18;
 
 /// Prints the finding and the headline claims, a line for what it says and one for what its verdict rests on.
 pub(super) fn print(paper: &Paper, verdicts: &Verdicts, which: &Which) {
-    let shapes = [
-        (Below::Everything, Choices::Explained),
-        (Below::Counts, Choices::Explained),
-        (Below::Everything, Choices::Named),
-        (Below::Counts, Choices::Named),
-        (Below::Nothing, Choices::Named),
-    ];
-    let mut texts = shapes.map(|shape| text(paper, verdicts, which, shape)).into_iter();
+    let shapes = [Below::Everything, Below::Counts, Below::Nothing];
+    let mut texts = shapes.map(|below| text(paper, verdicts, which, below)).into_iter();
     let fits = |text: &String| text.lines().count() <= LINES;
     let shortest = texts.next_back().unwrap_or_default();
     say!("{}", texts.find(fits).unwrap_or(shortest).trim_end());
@@ -52,16 +45,7 @@ enum Below {
     Nothing,
 }
 
-/// How the choices appear that the lines below claims name.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Choices {
-    /// The legend says of each what the paper leaves open.
-    Explained,
-    /// Their ids alone, and how one is explained.
-    Named,
-}
-
-fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, (below, choices): (Below, Choices)) -> String {
+fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, below: Below) -> String {
     let mut text = String::from("\n");
     if let Some(finding) = &paper.report.finding {
         text += &(plain("", &prose(finding, verdicts), 0, COLUMNS) + "\n\n");
@@ -72,20 +56,11 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, (below, choices): (Be
             Below::Everything => headline.rests_on(verdicts),
             Below::Counts | Below::Nothing => headline.beside(verdicts),
         };
-        named += &format!(" {};", words.as_deref().unwrap_or_default());
+        named += words.as_deref().unwrap_or_default();
         text += &lines(&headline, words, below == Below::Nothing);
     }
     let legend = LEGEND.iter().filter(|(words, _)| named.contains(words));
     let mut notes: Vec<String> = legend.map(|(words, meaning)| format!("{words}: {meaning}")).collect();
-    let mut open = paper.choices.iter().filter(|choice| names(&named, &choice.id));
-    if choices == Choices::Explained {
-        notes.extend(open.map(|choice| {
-            let clause = choice.why.split([';', ':']).next().unwrap_or_default();
-            format!("{}: {}", choice.id, clause.split(". ").next().unwrap_or_default())
-        }));
-    } else if let (Some(line), Some(choice)) = (notes.last_mut(), open.next()) {
-        *line += &format!("; a choice: {} {}", which.command("show"), choice.id);
-    }
     if below == Below::Nothing {
         notes = vec![notes.join("; ")];
     }
@@ -98,24 +73,20 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, (below, choices): (Be
     text + "\n" + &tallied(verdicts, which, Lines::Few)
 }
 
-/// Whether the lines below claims speak of the choice `id`, whose id may be a plain word too.
-fn names(lines: &str, id: &str) -> bool {
-    let phrases = [format!(" {id} = "), format!(" {id} matters most"), format!(" depends on {id}")];
-    phrases.iter().any(|phrase| lines.contains(phrase))
-}
-
-/// The claims that a proof refuses, with what they print; of a row its cells.
+/// The sentences and rows that a proof refuses, with what they or their cells print.
 fn impossible(verdicts: &Verdicts) -> Option<String> {
-    let is_proved = |judged: &&ClaimVerdict| {
-        let is_whole = verdicts.claims.iter().any(|part| part.part_of.as_ref() == Some(&judged.claim));
-        !is_whole && judged.findings.iter().any(|finding| finding.outcome == Some(Outcome::Proved))
+    let is_refused = |judged: &&ClaimVerdict| judged.verdict == Verdict::Impossible;
+    let name = |whole: &ClaimVerdict| {
+        let is_own = |judged: &&ClaimVerdict| {
+            judged.claim == whole.claim || judged.part_of.as_ref() == Some(&whole.claim)
+        };
+        let own = verdicts.claims.iter().filter(is_own).filter(is_refused);
+        let printed: Vec<&str> = own.filter_map(|judged| judged.printed.as_deref()).collect();
+        let printed = if printed.is_empty() { String::new() } else { format!(" ({})", printed.join(", ")) };
+        whole.claim.clone() + &printed
     };
-    let name = |judged: &ClaimVerdict| {
-        let printed = judged.printed.as_ref().map_or_else(String::new, |printed| format!(" ({printed})"));
-        judged.claim.clone() + &printed
-    };
-    let proved = verdicts.claims.iter().filter(|judged| judged.verdict == Verdict::Impossible);
-    let names: Vec<String> = proved.filter(is_proved).map(name).collect();
+    let refused = verdicts.claims.iter().filter(|judged| judged.is_counted()).filter(is_refused);
+    let names: Vec<String> = refused.map(name).collect();
     let more = names.len().saturating_sub(IMPOSSIBLE);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
     let listed = names.iter().take(IMPOSSIBLE).cloned().collect::<Vec<_>>().join(", ");
@@ -132,24 +103,11 @@ fn lines(headline: &Headline<'_>, rests_on: Option<String>, is_one: bool) -> Str
     let ours = headline.ours.as_ref().map_or_else(String::new, |ours| format!(": {ours}"));
     let beside = rests_on.map_or_else(String::new, |words| format!(": {words}"));
     let indent = VERDICT + 2;
-    let says = format!("{}{ours}", headline.says);
+    let says = format!("{}{ours}.", headline.says);
     let rests = format!("({}{beside})", judged.claim);
     if is_one {
         return plain(&(first + " "), &format!("{says} {rests}"), indent, COLUMNS) + "\n";
     }
     let says = plain(&(first + " "), &says, indent, COLUMNS);
     format!("{says}\n{}\n", plain(&" ".repeat(indent), &rests, indent, COLUMNS))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_choice_is_named_by_an_option_of_it_and_not_by_a_word_in_a_sentence() {
-        let lines = " 53/0/9 for/open/against; side_choice matters most: 8 of 15; holds only if end = any; depends on ties;";
-        let named = ["side_choice", "end", "ties"].map(|id| names(lines, id));
-        assert_eq!(named, [true; 3]);
-        assert_eq!(["choice", "most", "side", "against", "any"].map(|id| names(lines, id)), [false; 5]);
-    }
 }

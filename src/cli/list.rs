@@ -310,7 +310,7 @@ fn paper_alone(paper: &Paper) -> String {
 pub(super) fn choice_alone(choice: &Choice) -> String {
     let options: Vec<&str> = choice.options.keys().map(String::as_str).collect();
     let lines = [
-        choice.id.clone(),
+        choice.title.as_ref().map_or_else(|| choice.id.clone(), |title| format!("{}: {title}", choice.id)),
         wrapped("  options: ", &options.join(", "), 6),
         wrapped("  default: ", &choice.default, 6),
         wrapped("  why: ", &choice.why, 6),

@@ -83,7 +83,8 @@ impl Repro {
         // What is not stored in its usual place is not what `show` reads.
         if !self.all && !self.how.quick && self.how.with.is_none() && self.how.seed.is_none() {
             let [show, report] = ["show", "report"].map(|name| self.which.command(name));
-            say!("why: {show} CLAIM; all claims: {show}; one page: {report} --open");
+            let hint = format!("why: {show} NAME; all: {show}; page: {report} --open");
+            say!("{}", wrapped("", &hint, 2, COLUMNS));
         }
         let written = [&places.runs, &places.plots, &places.report].map(|path| path.display().to_string());
         say!("{}", wrapped("", &format!("written: {}", written.join(", ")), 2, COLUMNS));

@@ -126,7 +126,7 @@ pub struct Canvas {
     width: Width,
     height_pt: f64,
     body: String,
-    /// How what stands at the end of the body begins, if more may join it, and where it ends.
+    /// How the last element of the body begins, if more may join it, and where it ends.
     open: Option<(String, usize)>,
     clips: Vec<Rect>,
     glyphs: BTreeSet<(Weight, u16)>,

@@ -55,7 +55,7 @@ impl View {
         points.iter().map(|&point| self.at(point)).collect()
     }
 
-    /// Whether a chain of data points may pass through the frame: a piece between two of them whose box meets it.
+    /// Whether a chain of data points may pass through the frame: the box around some piece of it meets the frame.
     pub fn shows(&self, points: &[[f64; 2]]) -> bool {
         let placed = self.all(points);
         let ends = [placed[..1.min(placed.len())].repeat(2), placed].concat();

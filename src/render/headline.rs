@@ -6,8 +6,10 @@ use super::effect::{effect, percentage, side_by_side};
 use super::figure::noun;
 use super::prose::number;
 use super::tables::short;
+use crate::analysis::settle::COMBINATION;
 use crate::analysis::verdict::{ClaimVerdict, Estimate, Quantity, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
+use study::Choice;
 use study::paper::Paper;
 
 /// A paper without headlines shows its first claims instead, at most so many.
@@ -30,6 +32,8 @@ pub struct Headline<'a> {
     pub ours: Option<String>,
     /// Whether the sentence means one of several claims, whose verdicts make its own.
     has_meanings: bool,
+    /// The choices of the paper.
+    choices: &'a [Choice],
 }
 
 /// The headline claims of a paper, in the order of its claims.
@@ -42,7 +46,8 @@ pub fn headlines<'a>(paper: &'a Paper, verdicts: &'a Verdicts) -> Vec<Headline<'
         let sentences = [&judged.short, &judged.says, &judged.quote];
         let says = sentences.into_iter().flatten().next().unwrap_or(&judged.at);
         let has_meanings = paper.claim(&judged.claim).is_some_and(|claim| claim.meanings().is_some());
-        Headline { judged, says: says.clone(), ours: ours(judged, paper, verdicts), has_meanings }
+        let ours = ours(judged, paper, verdicts);
+        Headline { judged, says: says.clone(), ours, has_meanings, choices: &paper.choices }
     };
     shown.into_iter().map(headline).collect()
 }
@@ -50,30 +55,44 @@ pub fn headlines<'a>(paper: &'a Paper, verdicts: &'a Verdicts) -> Vec<Headline<'
 impl Headline<'_> {
     /// The verdict with the counts over interpretations, where they were explored, or with how many meanings have which verdict.
     pub fn verdict(&self, verdicts: &Verdicts) -> String {
-        self.verdict_with(self.beside(verdicts))
+        self.verdict_with(self.counts(verdicts))
     }
 
     /// The same, with what it depends on and its exceptions.
     pub fn verdict_in_full(&self, verdicts: &Verdicts) -> String {
-        self.verdict_with(self.rests_on(verdicts))
+        self.verdict_with(self.all_words(verdicts))
     }
 
     fn verdict_with(&self, words: Option<String>) -> String {
-        let verdict = self.judged.verdict_text();
-        words.map_or_else(|| verdict.clone(), |words| format!("{verdict}, {words}"))
+        let on = self.judged.depends_on.as_ref().filter(|on| !self.has_meanings && *on != COMBINATION);
+        let verdict = match on.filter(|_| self.judged.verdict == Verdict::Depends) {
+            Some(on) => format!("{} on {on}", self.judged.word()),
+            None => self.judged.word().to_owned(),
+        };
+        let text = words.map_or_else(|| verdict.clone(), |words| format!("{verdict}, {words}"));
+        titled(&text, self.choices)
     }
 
     /// The counts over interpretations, with the options on which it depends; or how many meanings have which verdict.
     pub fn beside(&self, verdicts: &Verdicts) -> Option<String> {
-        if self.has_meanings {
-            return meanings(self.judged, verdicts);
-        }
-        let shown = if self.judged.verdict == Verdict::Depends { 2 } else { 1 };
-        self.judged.beside.iter().take(shown).cloned().reduce(|one, two| format!("{one}; {two}"))
+        self.counts(verdicts).map(|words| titled(&words, self.choices))
     }
 
     /// The same, with what it depends on, its exceptions, and what would settle it if it is inconclusive.
     pub fn rests_on(&self, verdicts: &Verdicts) -> Option<String> {
+        self.all_words(verdicts).map(|words| titled(&words, self.choices))
+    }
+
+    fn counts(&self, verdicts: &Verdicts) -> Option<String> {
+        if self.has_meanings {
+            return meanings(self.judged, verdicts);
+        }
+        let shown = if self.judged.verdict == Verdict::Depends { 2 } else { 1 };
+        let words = self.judged.beside.iter().take(shown).map(|words| without_zeros(words));
+        words.reduce(|one, two| format!("{one}; {two}"))
+    }
+
+    fn all_words(&self, verdicts: &Verdicts) -> Option<String> {
         let judged = self.judged;
         let words = if self.has_meanings { meanings(judged, verdicts) } else { judged.rests_on() };
         let settles = judged.settles().filter(|_| judged.verdict == Verdict::Inconclusive);
@@ -82,11 +101,46 @@ impl Headline<'_> {
     }
 }
 
+/// `words` beside a verdict with the title of each choice before its name, where it is named first.
+fn titled(words: &str, choices: &[Choice]) -> String {
+    let all: Vec<&str> = words.split(' ').collect();
+    let mut left: Vec<(&str, &str)> =
+        choices.iter().filter_map(|choice| Some((choice.id.as_str(), choice.title.as_deref()?))).collect();
+    let mut is_listed = false;
+    let mut text: Vec<String> = Vec::new();
+    for (at, word) in all.iter().enumerate() {
+        let bare = word.trim_end_matches([',', ';']);
+        // An id may be a plain word too, so what stands around it decides.
+        let is_behind = at > 0 && ["on", "and"].contains(&all[at - 1]);
+        let is_before = all.get(at + 1).is_some_and(|next| ["=", "matters"].contains(next));
+        let known = left.iter().position(|(id, _)| *id == bare);
+        text.push(match known.filter(|_| is_listed || is_behind || is_before) {
+            Some(place) => {
+                let (id, title) = left.remove(place);
+                format!("{title} ({id}){}", &word[id.len()..])
+            }
+            None => (*word).to_owned(),
+        });
+        is_listed = (is_listed || *word == "varied:") && !word.ends_with(';');
+    }
+    text.join(" ")
+}
+
+/// `words` without the options that none of their results contradict, where there are several.
+fn without_zeros(words: &str) -> String {
+    let (zeros, others): (Vec<&str>, Vec<&str>) =
+        words.split(", ").partition(|part| part.starts_with("0 of "));
+    if zeros.len() < 2 {
+        return words.to_owned();
+    }
+    format!("{}, none otherwise", others.join(", "))
+}
+
 /// How many of the meanings of a sentence have each verdict, if they differ.
 fn meanings(judged: &ClaimVerdict, verdicts: &Verdicts) -> Option<String> {
     let parts = verdicts.claims.iter().filter(|part| part.part_of.as_ref() == Some(&judged.claim));
-    let mut counts: Vec<(String, usize)> = Vec::new();
-    for verdict in parts.map(ClaimVerdict::verdict_text) {
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for verdict in parts.map(ClaimVerdict::word) {
         match counts.iter_mut().find(|(known, _)| *known == verdict) {
             Some((_, count)) => *count += 1,
             None => counts.push((verdict, 1)),
@@ -154,4 +208,42 @@ fn rank(ours: &Estimate, noun: &str) -> String {
 /// The noun for so many instances: the plural without its s for one.
 fn counted(n: usize, plural: &str) -> &str {
     plural.strip_suffix('s').filter(|_| n == 1).unwrap_or(plural)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_choice_has_its_title_where_a_verdict_names_it_first_and_no_plain_word_has() {
+        let choices = ["side_choice", "end", "rho"].map(|id| Choice {
+            id: id.to_owned(),
+            title: Some(format!("T{}", id.len())),
+            why: String::new(),
+            default: "a".to_owned(),
+            fitted: false,
+            bounds: None,
+            options: std::collections::BTreeMap::new(),
+            touches_trials: true,
+            place: None,
+        });
+        let titled = |words: &str| titled(words, &choices);
+        let counts =
+            "53/0/9 for/open/against; side_choice matters most: 8 of 15 against with end, 1 of 47 with any";
+        assert_eq!(titled(counts), counts.replace("side_choice", "T11 (side_choice)"));
+        assert_eq!(
+            titled("depends on end, holds only if end = a"),
+            "depends on T3 (end), holds only if end = a"
+        );
+        let listed = "choices not varied: tool, end, rho and 3 more; the end of rho";
+        assert_eq!(titled(listed), "choices not varied: tool, T3 (end), T3 (rho) and 3 more; the end of rho");
+    }
+
+    #[test]
+    fn of_several_options_that_nothing_contradicts_none_is_named() {
+        let words = "meeting matters most: 6 of 6 against with a, 0 of 4 with b";
+        assert_eq!(without_zeros(words), words);
+        let more = format!("{words}, 0 of 10 with c");
+        assert_eq!(without_zeros(&more), "meeting matters most: 6 of 6 against with a, none otherwise");
+    }
 }

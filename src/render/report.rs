@@ -51,6 +51,9 @@ between the markers.
 /// The heading of the table of counts, behind what was found in each paper.
 const ALL: &str = "### All claims";
 
+/// What that table counts.
+const COUNTED: &str = "How many sentences and table rows of each paper have which verdict.";
+
 /// The name of the overview among the chapters: it sorts before the name of any paper.
 const OVERVIEW: &str = "! overview";
 
@@ -125,9 +128,9 @@ fn overview(before: &str, name: &str, chapter: &Chapter) -> String {
     let mut rows: Vec<&str> = rows.lines().filter(is_row).chain([&*row]).collect();
     rows.sort_unstable();
     let columns = Column::ALL.map(Column::name);
-    let rule = "---:|".repeat(columns.len() + 1);
+    let rule = "---:|".repeat(columns.len());
     let rows = rows.join("\n");
-    format!("{found}{ALL}\n\n| paper | sentences and rows | {} |\n|---|{rule}\n{rows}", columns.join(" | "))
+    format!("{found}{ALL}\n\n{COUNTED}\n\n| paper | {} |\n|---|{rule}\n{rows}", columns.join(" | "))
 }
 
 /// How the row of the paper `name` begins: with a link to its chapter.

@@ -343,8 +343,8 @@ impl Study {
         }
     }
 
-    /// The contenders whose trials hang on a clock and on programs of others: they are recorded, and neither a fresh run nor a
-    /// sample of stored trials repeats them.
+    /// The contenders whose trials depend on a clock and on programs of others. They are recorded; neither a fresh run nor a sample
+    /// of stored trials repeats them.
     pub fn recorded(&self) -> impl Iterator<Item = &str> {
         self.contenders.iter().filter(|contender| contender.is_recorded()).map(|one| one.label.as_str())
     }

@@ -14,6 +14,8 @@ use toml::{Table, Value};
 pub struct Choice {
     /// Its name in specs, columns and on the command line.
     pub id: String,
+    /// What it settles, in a few words, where the spec gives them.
+    pub title: Option<String>,
     /// What the paper leaves open, and why the default was taken.
     pub why: String,
     /// The option taken unless another is named.
@@ -33,7 +35,7 @@ pub struct Choice {
 impl Choice {
     /// The choice that `spec` writes, number `index` in `document`.
     pub fn read(spec: ChoiceSpec, document: &Arc<Document>, index: usize) -> Self {
-        let ChoiceSpec { id, why, default, fitted, bounds, paper, practice, option } = spec;
+        let ChoiceSpec { id, title, why, default, fitted, bounds, paper, practice, option } = spec;
         // A source of the whole choice is that of every option that has none of its own; what is laid over files is a setting of
         // the problems that name them.
         let sourced = |mut option: OptionSpec| {
@@ -53,6 +55,7 @@ impl Choice {
         let options: BTreeMap<_, _> = options.collect();
         Self {
             id: id.into_inner(),
+            title,
             why,
             default: default.into_inner(),
             fitted,
@@ -356,6 +359,7 @@ mod tests {
         let lost = OptionSpec { cannot_run: Some("it needs the lost map".to_owned()), ..option("closed") };
         vec![Choice {
             id: "nodes".to_owned(),
+            title: None,
             why: "not stated".to_owned(),
             default: "opened".to_owned(),
             fitted: false,

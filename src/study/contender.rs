@@ -24,7 +24,7 @@ pub struct Contender {
     pub is_numbered: bool,
     /// The planner, then the stages that tidy its plan.
     pub stages: Vec<StageUse>,
-    /// Choices, with the option, that its settings take in place of the one in hand.
+    /// Choices that its settings do not take from the interpretation, each with the option taken in its place.
     pub departs: BTreeMap<String, String>,
 }
 

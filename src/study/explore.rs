@@ -162,6 +162,7 @@ mod tests {
         Choice {
             place: None,
             id: id.to_owned(),
+            title: None,
             why: String::new(),
             default: "0".to_owned(),
             fitted,

@@ -218,7 +218,7 @@ impl Manifest {
         self.gives() == before.gives()
     }
 
-    /// What says which trials and times the run gave, and by which defaults.
+    /// The parts that say which trials and times the run gave, and under which defaults.
     fn gives(&self) -> impl PartialEq {
         let Self { spec, depends, recorded, defaults, choices, interpretations, shard, sessions, .. } = self;
         (spec, depends, recorded, defaults, choices, interpretations, shard, sessions.is_empty())
@@ -240,7 +240,7 @@ impl Manifest {
         self.interpretations.iter().position(is_same).filter(|_| are_choices)
     }
 
-    /// What the problem group of `on` depends on at its point of the sweeps, under its reading.
+    /// What the problem group of `on` depends on at its point of the sweeps, under its interpretation.
     pub fn problem(&self, on: &InstanceKey) -> Option<&str> {
         hash_of(&self.problems, &name::group(&on.group, &on.sweep), self.place(&on.interpretation)?)
     }
@@ -250,7 +250,7 @@ impl Manifest {
         hash_of(&self.contenders, label, self.place(interpretation)?)
     }
 
-    /// In what this study is set otherwise than `before`, each under its defaults.
+    /// How the settings of this study differ from those of `before`, each under its defaults.
     pub fn set_otherwise(&self, before: &Self) -> Vec<String> {
         let [first, second] = [before.seed, self.seed];
         let seeds = (first != second).then(|| format!("seed {first} and {second}"));

@@ -59,7 +59,8 @@ impl<'a> Parts<'a> {
         Err(StudyError::stored(folder, format!("the parts cannot be put together:\n  {reasons}")))
     }
 
-    /// Writes the records of `study`, the plan's of this place, into `into`, which is locked; how many trials they are.
+    /// Writes the records of `study`, at this place of the plan, into the locked folder `into`, and gives how many trials they
+    /// hold.
     ///
     /// # Errors
     /// [`StudyError::Stored`] for a part that is damaged or does not hold the units that are its own; those of the file system,

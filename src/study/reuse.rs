@@ -66,8 +66,7 @@ impl Before {
         Ok(Self { stored: Some((before, records)), kept, why, damage: Damage::default() })
     }
 
-    /// What is sound of it, after the rest was set aside. A manifest that can be read names its files rightly, or their hashes would
-    /// not be theirs.
+    /// The sound files, after the rest was set aside. A readable manifest names the right files, or their hashes would differ.
     fn salvaged(folder: &Path, manifest: &Manifest) -> Result<Self, StudyError> {
         let study = &manifest.study;
         let is_sealed = Manifest::read(folder, study).is_ok();
@@ -304,7 +303,7 @@ impl<'r> Moved<'r> {
         Self { manifest, before, old: old.iter().map(|row| (&row.key, row)).collect() }
     }
 
-    /// Whether `row` is one.
+    /// Whether `row` is a moved trial.
     pub fn has(&self, row: &Row) -> bool {
         let Self { manifest, before, old } = self;
         let interpretation = &row.key.on.interpretation;

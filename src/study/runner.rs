@@ -168,7 +168,7 @@ impl<'a> BuiltStudy<'a> {
         self.posed_unit(key, group, interpretation, place)
     }
 
-    /// The unit called `key`: of the reading and of the problem group at its point of the sweeps at these places.
+    /// The unit called `key`: of the interpretation at one place, and of `group` at its point of the sweeps at the other.
     fn posed_unit<'s>(
         &'s self,
         key: InstanceKey,

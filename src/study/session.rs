@@ -58,7 +58,7 @@ pub struct Options<'a> {
 }
 
 impl Options<'_> {
-    /// The stored run in `folder` that is as `manifest` has it, with its trials but without their numbers: nothing of it runs again.
+    /// The stored run in `folder` if it matches `manifest`, with its trials but without their numbers: nothing of it runs again.
     /// `None` also if it is damaged.
     fn current(&self, folder: &Path, manifest: &Manifest) -> Option<(Manifest, Vec<Row>)> {
         if self.again.fresh || self.again.record {
@@ -111,7 +111,7 @@ pub struct Report {
     pub moved: Vec<String>,
     /// Damaged files that were set aside.
     pub aside: Vec<PathBuf>,
-    /// Trials that brought neither a path nor the answer that there is none, by status.
+    /// Trials that ended neither with a path nor with the answer that none exists, by status.
     pub odd: Vec<UnexpectedStatus>,
 }
 

@@ -160,6 +160,8 @@ pub struct SweepSpec {
 pub struct ChoiceSpec {
     /// Its name in specs, columns and on the command line.
     pub id: Spanned<String>,
+    /// What it settles, as a noun of a few words: it stands before the name where a headline's verdict depends on it.
+    pub title: Option<String>,
     /// What the paper leaves open, and why the default was taken.
     pub why: String,
     /// The option taken unless another is named.
@@ -209,7 +211,7 @@ pub struct OptionSpec {
     pub probe: bool,
     /// The number that it stands for, where the choice has `bounds`.
     pub value: Option<f64>,
-    /// Options of other choices, by the choice's name, with which alone it is explored; with all if absent.
+    /// Options of other choices that it is explored with, by the choice's name; with every option if absent.
     #[serde(default)]
     pub only_with: BTreeMap<String, Vec<String>>,
     /// Why it cannot be run: claims on studies that inherit the choice then stay open.

@@ -232,6 +232,24 @@ fn a_claim_depends_on_a_default_once_a_second_seed_agrees_and_is_inconclusive_be
 }
 
 #[test]
+fn the_title_of_a_choice_stands_on_the_first_screen_and_changes_nothing_that_is_stored() {
+    let toy = Toy::new(&[CITED]);
+    toy.0.done(&["confirm", "./toy"]);
+    toy.0.done(&["repro", "./toy"]);
+    let stored = toy.0.tree(RUNS);
+    toy.0.edit("toy/paper.toml", "id = \"hurry\"", "id = \"hurry\"\ntitle = \"weight of A*\"");
+    let output = toy.0.done(&["repro", "./toy"]);
+    let words = output.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        words.contains("contradicted only if weight of A* (hurry) = none")
+            && words.contains("nothing to run"),
+        "{output}"
+    );
+    assert!(toy.0.tree(RUNS) == stored, "a title changed what is stored");
+    toy.0.done(&["judge", "./toy", "--check"]);
+}
+
+#[test]
 fn an_axis_that_cannot_touch_a_claim_does_not_inflate_its_count() {
     let with = Toy::new(&[CITED]);
     let across = with.claim("fewer").across.unwrap();

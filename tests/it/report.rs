@@ -341,9 +341,10 @@ fn repro_ends_with_the_finding_and_its_headline_claims_within_a_screen() {
     let claims = |text: &str| ["nodes", "cost"].map(|id| text.lines().any(|line| is_claim(line, id)));
     assert_eq!(claims(&output), [true, false], "{output}");
     assert_eq!(claims(&bench.done(&["repro", "./mini", "--all"])), [true, true]);
-    assert!(lines.iter().any(|line| line.starts_with("why: replan show ./mini CLAIM; ")), "{output}");
+    assert!(lines.iter().any(|line| line.starts_with("why: replan show ./mini NAME; ")), "{output}");
     let verdict = bench.done(&["show", "./mini", "nodes"]);
     let at = lines.iter().position(|line| is_claim(line, "nodes")).unwrap();
     let word = lines[at - 1].split("  ").next().unwrap();
+    assert!(lines[at - 1].ends_with("maps)."), "{output}");
     assert!(!word.is_empty() && verdict.contains(word), "{word}: {verdict}");
 }

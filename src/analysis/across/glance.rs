@@ -22,7 +22,7 @@ pub enum Sight {
     Unmeant,
     /// Its trials did not run under the interpretation, or the clock was not read.
     Unexplored,
-    /// Hardly any printed value could have been refused, or no problem could be posed.
+    /// Almost any printed value would fit, or no problem could be posed.
     Powerless,
     /// There are too few instances; more may say something.
     Few,
@@ -44,7 +44,7 @@ pub struct Glance {
     pub outcome: Outcome,
     /// Whether this outcome says something about the claim.
     pub sight: Sight,
-    /// Our number with its interval, and of how many instances.
+    /// Our number, its interval, and the number of instances.
     pub ours: Option<(f64, Option<[f64; 2]>, usize)>,
     /// The share of returned paths that the verifier refuses, from 0 to 1.
     pub refused: f64,

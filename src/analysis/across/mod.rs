@@ -194,8 +194,8 @@ impl OfClaim<'_> {
         judged.across = view.first.map(|first| self.across(first, judged, view, line));
     }
 
-    /// Of the choices that touch the claim, those that the calibration leaves one option, each with that option; and those
-    /// that were looked at under their default alone, though the calibration allows others.
+    /// The choices that touch the claim and were not varied. First those that the calibration leaves one option, each with that
+    /// option. Then those judged under their default alone, though the calibration allows others.
     fn unvaried(&self, touched: &Touched<'_>, counted: Option<&Counted>) -> (Vec<String>, Vec<String>) {
         let left = |choice: &Choice| {
             let option = counted.and_then(|counted| counted.calibrated.get(&choice.id));

@@ -64,6 +64,7 @@ fn what_stands_alone_against_most_must_be_confirmed_whichever_way_it_speaks() {
 fn choices(defaults: &[(&str, &str)]) -> VotingChoices {
     let choice = |(id, default): &(&str, &str)| Choice {
         id: (*id).to_owned(),
+        title: None,
         why: String::new(),
         default: (*default).to_owned(),
         fitted: false,

@@ -256,7 +256,7 @@ impl<'a> Attained<'a> {
         eligible
     }
 
-    /// Whether nothing else must be met where it is looked for.
+    /// Whether it is looked for without other claims that must be met too.
     pub fn is_unconditional(&self) -> bool {
         self.given.is_empty()
     }

@@ -157,8 +157,8 @@ impl<'a> LeastOf<'a> {
         sides
     }
 
-    /// Every comparison that both sides were measured for, with what trials without an end would have given to those that are
-    /// claimed to be lower and to the others.
+    /// Every comparison with numbers on both sides. Trials without an end take the values that `ends` names: one for those claimed
+    /// to be lower, one for the others.
     fn compared(&self, run: &Run<'_>, ends: Ends) -> Vec<Number> {
         let unended = match ends {
             Ends::Measured => [f64::INFINITY; 2],

@@ -156,8 +156,8 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// The curve of each instance: how many points more of its queries are solved than by the other, along the sweep. What did not
-    /// end is not solved or, if so wanted, is solved on the one side alone.
+    /// The curve of each instance: how many points more of its queries are solved than by the other, along the sweep. Queries
+    /// without an end count as unsolved, or as solved on the sides that `unended` names.
     fn curves(&self, instances: &[Instance<'_>], unended: [bool; 2]) -> Vec<Vec<f64>> {
         let points = self.selection.sweep_points();
         let is_solved = |row: &Row, unended: bool| row.is_solved() || unended && is_unended(row);
@@ -176,8 +176,8 @@ impl<'a> Lower<'a> {
         sup_t_between(&self.curves(instances, unended), [-100.0, 100.0], PLAN)
     }
 
-    /// By how much more is solved at each point of the sweep; a part each, as it is and as if the other alone had solved what did not end,
-    /// then this one.
+    /// By how much more is solved at each point of the sweep, a part each. First as measured, then as if one contender had solved
+    /// all that did not end: the other, then this one.
     fn numbers_along(&self, evidence: &Evidence<'_>) -> Vec<Number> {
         let instances = self.selection.instances(evidence);
         let n = self.curves(&instances, [false; 2]).len();
@@ -202,7 +202,7 @@ impl<'a> Lower<'a> {
         (0..points.len()).min_by(|a, b| signed(*a).total_cmp(&signed(*b))).unwrap_or(0)
     }
 
-    /// What is found along the sweep if cases without an end ended so, and at how many points on the claim's side.
+    /// The outcome along the sweep if cases without an end ended so, and how many points lie on the claim's side.
     fn all_along(&self, numbers: &[Number], ends: Ends) -> Option<(Outcome, usize)> {
         let band: Vec<Interval> =
             parts(numbers, ends).into_iter().filter_map(|point| point.interval).collect();

@@ -41,8 +41,8 @@ pub trait Criterion {
     /// Adds the trial that shows what was found in `numbers`, and what trials alone can tell.
     fn show(&self, _evidence: &Evidence<'_>, _numbers: &[Number], _found: &mut CriterionResult) {}
 
-    /// What arithmetic on printed numbers proves, of a rule; these polylines are remembered. Unless it is explained, only whether
-    /// the claim is refused is found out.
+    /// What a rule proves by arithmetic on printed numbers; polylines are kept for later rules. Without an explanation it only
+    /// finds out whether the claim is refused.
     fn proof(&self, _polylines: &Polylines, _is_explained: bool) -> Option<CriterionResult> {
         None
     }

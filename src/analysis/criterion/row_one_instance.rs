@@ -185,7 +185,7 @@ impl RowOneInstance<'_> {
         (0..self.printed.len()).map(|cell| units.iter().map(|unit| unit[cell]).collect()).collect()
     }
 
-    /// How many cases without an end could turn what was found: they count as solved; what they would have given else is not known.
+    /// How many cases without an end could turn the outcome. They are taken as solved, since nothing else is known of them.
     fn censored(&self, numbers: &[Number], (level, outcome): (&Level, Outcome)) -> usize {
         let unended = whole(numbers).unended;
         if unended == 0 {

@@ -285,7 +285,7 @@ impl<'a> Counted<'a> {
         })
     }
 
-    /// A trial of what there is too little or too much of or, where the share is accepted, of the rarer kind.
+    /// A trial of the kind that is too rare or too frequent; where the share is accepted, of the rarer kind.
     fn shown(&self, evidence: &Evidence<'_>, instances: &[Instance<'_>], share: f64) -> Option<String> {
         let is_miss_shown = match self.settings.accepted {
             Some([low, _]) if share < low => true,

@@ -71,8 +71,8 @@ impl<'a> Trend<'a> {
         Ok(Self { selection, metric, over: settings.over, rising: settings.rising })
     }
 
-    /// The slopes if each case without an end had a number below or above all that were seen together, whichever goes against a slope that
-    /// rises, then against one that falls.
+    /// Two slopes, in which each case without an end lies far below or above all seen numbers: whichever goes against a rise, then
+    /// whichever goes against a fall.
     fn slopes_ended(&self, instances: &[Instance<'_>]) -> Vec<Interval> {
         let seen: Vec<(f64, f64)> = cases(instances).filter_map(|case| self.point(case)).collect();
         let middle = summary::mean(&seen.iter().map(|(x, _)| *x).collect::<Vec<_>>());

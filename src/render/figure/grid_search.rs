@@ -277,8 +277,7 @@ impl<'a> Map<'a> {
         self.paint(panel, &layers, keys);
     }
 
-    /// Adds the cells, blocked ones dark, with `layers` of vertices on top of nothing and below the walls. A vertex that is a corner is
-    /// a square about it.
+    /// Adds `layers` of vertices and, above them, the blocked cells in dark. A vertex at a corner is drawn as a square about it.
     fn paint(&self, panel: &mut Panel, layers: &[(Vec<[f64; 2]>, Rgb)], keys: Vec<Key>) {
         let lines = Some(Stroke::solid(BLACK.mixed(WHITE, 0.85), 0.25));
         let walls = (ask::points(self.walls), BLOCKED);

@@ -40,7 +40,7 @@ sweep = "delta_deg=10.0"
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Read {
-    /// Whose motions on what, in their order.
+    /// The problem groups and contenders whose motions are shown, in their order.
     panels: Vec<PanelSetting>,
     /// What is drawn.
     quantity: Quantity,

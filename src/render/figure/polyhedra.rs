@@ -54,7 +54,7 @@ struct Read {
     /// Whether the instance is the first that only the first contender solves, if there is one whose arm is stored.
     #[serde(default)]
     first_alone: bool,
-    /// How far obstacles that are boxes are grown, if what the tip keeps out of is drawn about them, in cm.
+    /// By how many centimetres boxes are grown to show the space that the tip keeps out of; not shown if absent.
     #[schemars(range(min = 0.0))]
     grown_cm: Option<f64>,
     /// One row each.

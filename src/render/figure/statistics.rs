@@ -65,13 +65,13 @@ struct PanelSpec {
     x: String,
     /// What stands along the vertical axis.
     y: String,
-    /// Words along the axis that is no number.
+    /// The title of the axis that shows no numbers.
     axis: String,
     /// The problem groups, by their labels, taken together where they are not along an axis; all if absent.
     problems: Vec<String>,
     /// The contenders, by their labels; all if absent.
     contenders: Vec<String>,
-    /// Those among them that do the same whatever was drawn: they have no interval.
+    /// Contenders that do the same on every instance: they have no interval.
     certain: Vec<String>,
     /// The queries, by their names; all if absent.
     queries: Vec<String>,
@@ -85,17 +85,17 @@ struct PanelSpec {
     studies: Vec<String>,
     /// Shares solved in other studies, as lines across.
     levels: Vec<Level>,
-    /// Claims whose numbers are drawn as lines, of ratios the two whose ratio is; along a sweep also what a printed row's claims are called before
-    /// the sweep's value (`t2.original.`), one for each contender.
+    /// Claims whose numbers are drawn as lines; of ratios the two claims that form the ratio. Along a sweep also how the names of a
+    /// printed row's claims begin (`t2.original.`), one for each contender.
     printed: Vec<String>,
-    /// The sweep along a printed row: shown is how far its cells are from ours.
+    /// The sweep along a printed row; the panel shows how far its cells are from ours.
     row: Option<String>,
     /// Columns of pairs that do not count.
     leaves_out: Vec<String>,
     /// The last moment of `time`, in seconds.
     #[schemars(range(min = 0.01, max = 3600.0))]
     until_s: Option<f64>,
-    /// How numbers are drawn; as is usual for the statistic if absent.
+    /// How numbers are drawn; the usual way of the statistic if absent.
     marks: Vec<MarkKind>,
 }
 

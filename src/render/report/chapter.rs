@@ -47,7 +47,7 @@ pub fn unread(paper: &Paper, why: &str) -> Chapter {
     let why = format!("**Nothing is shown: {}.**", markdown(why));
     let mut text = heading(paper);
     text.insert_str(text.find('\n').unwrap_or(0) + 1, &format!("\n{why}\n"));
-    let blank = " – |".repeat(Column::ALL.len() + 1);
+    let blank = " – |".repeat(Column::ALL.len());
     Chapter {
         text,
         found: begin_of_found(paper) + &why + "\n",

@@ -17,8 +17,8 @@ use std::sync::Arc;
 use toml::Table;
 
 impl Study {
-    /// The study in `document`, of a paper that says what is `shared`, as far as it can be read, if at all; everything that is wrong
-    /// goes to `faults`.
+    /// The study in `document`, as far as it can be read, with what its paper says for all studies (`shared`). Every fault goes to
+    /// `faults`.
     ///
     /// # Errors
     /// What the system refuses.
@@ -128,25 +128,25 @@ impl Shared {
 
 /// An entry of a spec that may be like another of its kind.
 trait Alike: Sized {
-    /// What it becomes once it is read.
+    /// The type that it is read into.
     type Read: Clone;
 
-    /// What is called so, for messages; the key that it names unless it is like another.
+    /// What it is called in messages, and the key that it must have unless it is like another.
     const CALLED: [&'static str; 2];
 
-    /// Its own label, that of the entry it is like, and whether it names the key.
+    /// Its own label, the label of the entry that it is like, and whether it has the key.
     fn names(&self) -> (&Spanned<String>, Option<&Spanned<String>>, bool);
 
     /// The label of what was read.
     fn label(read: &Self::Read) -> &str;
 
-    /// It, the one at `place`, read by itself.
+    /// The entry at `place`, read by itself.
     ///
     /// # Errors
     /// A name that does not exist.
     fn read(&self, document: &Arc<Document>, place: usize) -> Result<Self::Read, SettingsError>;
 
-    /// The same where it is like `base`.
+    /// The entry at `place`, which is like `base`.
     ///
     /// # Errors
     /// A key that does not go with `like`, a name that does not exist.
@@ -375,7 +375,7 @@ impl ProblemsSpec {
         stage.map(|stage| Change::by_problems(self.label.get_ref(), stage.clone(), place))
     }
 
-    /// That it does not stand for a group a file: those that do are one group each by now.
+    /// Refuses `each`: by now every file has a group of its own.
     fn refuse_files(&self, document: &Document) -> Result<(), SettingsError> {
         let message = "`each` is accepted in a study, in groups that are `like` no other";
         self.each.as_ref().map_or(Ok(()), |each| Err(document.error(each.span(), message)))

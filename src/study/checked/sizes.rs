@@ -17,7 +17,7 @@ const CELLS: f64 = 1e12;
 pub(super) const SWEPT: usize = 10_000;
 
 impl Study {
-    /// Refuses products of sizes that cannot be meant, trials that nobody runs, and seeds for a contender that draws nothing.
+    /// Refuses sizes beyond the limits, a study without trials, and several seeds for a contender that draws nothing.
     pub(super) fn check_sizes(&self, families: &[(&Group, Arc<dyn Family>)], faults: &mut Faults) {
         for (group, family) in families {
             let cells = f64::from(group.instances) * family.cells() as f64;

@@ -29,7 +29,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// What of it is more than people mean without a word, if anything is.
+    /// The amounts that must be confirmed before the study runs, in words; `None` if there are none.
     pub fn excess(&self) -> Option<String> {
         let Self { trials, bytes, seconds } = *self;
         let amounts = [

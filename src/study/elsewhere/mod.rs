@@ -114,9 +114,8 @@ impl Imported {
     /// Stages the rows in `folder` as the records of `study`, under its defaults.
     ///
     /// # Errors
-    /// A study with parts that are not recorded elsewhere; a row whose group, instance or contender it does not have; a trial of
-    /// it
-    /// without a row; [`StudyError::Io`].
+    /// A study with parts that are not recorded elsewhere; a row whose group, instance or contender it lacks; a trial of it without
+    /// a row; [`StudyError::Io`].
     pub fn stage_of(
         &self,
         staged: &mut Staged,

@@ -117,7 +117,7 @@ struct CellQueries {
     /// How much of its range is used when a joint is drawn that turns by more than half a turn either way.
     #[serde(default)]
     turns: Turns,
-    /// How far the tools of two samples may be apart to be tried as neighbours; given like this, as `radius_deg` or as `nearest`.
+    /// Samples are tried as neighbours if their tools are at most this far apart. One of this, `radius_deg` and `nearest` is given.
     #[schemars(range(min = 0.001, max = FARTHEST_MM))]
     radius_mm: Option<f64>,
     /// The factor on `radius_mm`, for a study that varies a radius set elsewhere.
@@ -130,7 +130,7 @@ struct CellQueries {
     /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints.
     #[schemars(range(min = 0.001, max = 36_000))]
     radius_deg: Option<f64>,
-    /// So many samples nearest in joint space are tried as a sample's neighbours.
+    /// How many samples, the nearest in joint space, are tried as a sample's neighbours.
     #[schemars(range(min = 1))]
     nearest: Option<u32>,
     /// What moves straight between neighbours.
@@ -204,7 +204,7 @@ fn once() -> f64 {
 }
 
 impl CellQueries {
-    /// How many times `radius_mm` the roadmap is built up to.
+    /// Up to how many times `radius_mm` the roadmap joins samples.
     fn times(&self) -> f64 {
         self.built_times.map_or(self.radius_times, |least| self.radius_times.max(least))
     }
@@ -221,7 +221,7 @@ impl CellQueries {
         self.heights_mm.iter().try_fold(scene, raised)
     }
 
-    /// That the tool's speed does not seem to be in metres.
+    /// Refuses a speed of the tool that seems to be in metres.
     fn accept_speed(&self, settings: &Settings) -> Result<(), SettingsError> {
         let Some(SpeedSetting { tool_mm_s, acceleration_mm_s2 }) = self.speed else { return Ok(()) };
         let mut faults = Faults::default();

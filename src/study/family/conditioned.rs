@@ -133,7 +133,7 @@ fn sealed_as(planner: &str, revision: u32) -> u32 {
 }
 
 impl Conditioned {
-    /// What decides which try is accepted; a list holds for an equal one alone.
+    /// A hash of all that decides which try is accepted; a list of tries holds only for an equal hash.
     fn fingerprint(&self) -> String {
         let Self {
             families,

@@ -87,10 +87,10 @@ pub trait Family: Send + Sync {
         false
     }
 
-    /// That every start and goal written in its settings or files can be stood at.
+    /// Checks that every start and goal written in its settings or files is free.
     ///
     /// # Errors
-    /// Those that cannot, each at its place.
+    /// Those that are not, each at its place.
     fn check_ends(&self) -> Result<(), SettingsError> {
         Ok(())
     }

@@ -78,14 +78,14 @@ struct JointProblems {
     step_deg: f64,
     /// What stands for cylinders of the problems; prisms if absent.
     cylinders: Option<CylinderSetting>,
-    /// The beginning of the names of those folders of an archive in which boxes stand for cylinders instead; none do if absent. It is read
-    /// under `capsules` alone.
+    /// How the names of those folders of an archive begin in which boxes stand for cylinders; none if absent. Read only with
+    /// `capsules`.
     #[schemars(length(min = 1))]
     boxes_in: Option<String>,
     /// How far the robot must be from every obstacle, besides not touching it; nothing if absent.
     #[schemars(range(min = 0.0, max = 1000.0))]
     clearance_mm: Option<f64>,
-    /// How files that are not in the repository are brought and known.
+    /// How to fetch files that are not in the repository, and how to check them.
     archive: Option<Archive>,
 }
 

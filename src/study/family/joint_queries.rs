@@ -77,14 +77,14 @@ struct JointQueries {
     /// How many samples the roadmap is built from, drawn evenly within the joints' limits.
     #[schemars(range(min = 1, max = 100_000))]
     samples: u32,
-    /// How far the tips of two samples may be apart to be tried as neighbours; given like this, as `radius_deg` or as `nearest`.
+    /// Samples are tried as neighbours if their tips are at most this far apart. One of this, `radius_deg` and `nearest` is given.
     #[schemars(range(min = 0.001, max = FARTHEST_MM))]
     radius_mm: Option<f64>,
     /// How far two samples may be apart in joint space, by the root of the sum of squares over the joints; a metre of a joint that
     /// slides counts as a radian.
     #[schemars(range(min = 0.001, max = 36_000))]
     radius_deg: Option<f64>,
-    /// So many samples nearest in joint space are tried as a sample's neighbours.
+    /// How many samples, the nearest in joint space, are tried as a sample's neighbours.
     #[schemars(range(min = 1))]
     nearest: Option<u32>,
     /// How far a joint may move between two configurations that are checked; a metre of a joint that slides counts as a radian.
@@ -291,7 +291,7 @@ impl Family for Posed {
         WorldKind::Roadmap
     }
 
-    /// A roadmap of one sample is none: its planner draws its own, and seeds differ alone.
+    /// A roadmap of one sample serves planners that draw their own: only the seeds of instances differ.
     fn instances(&self) -> Option<&'static str> {
         (self.read.samples == 1).then_some("seeds")
     }

@@ -30,7 +30,7 @@ settings!(RandomCells {
     /// How many columns and rows along each side are a border without blocked cells; 0 if absent.
     #[schemars(range(max = 32_767))]
     border_cells: Option<u32>,
-    /// What the border is to the share; `spared` if absent.
+    /// How the border counts toward the share; `spared` if absent.
     border: Option<BorderSetting>,
     /// The rows that a start or goal that is drawn may lie in; `all` if absent.
     end_rows: Option<EndRows>,
@@ -63,12 +63,12 @@ enum BlockingSetting {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum BorderSetting {
-    /// The share is one of the cells inside it.
+    /// The share is that of the cells inside it.
     #[default]
     Spared,
-    /// The share is one of all cells, and those inside it make up for it.
+    /// The share is that of all cells; the cells inside make up for the free border.
     Counted,
-    /// Its cells are blocked as any other, and freed afterwards.
+    /// Its cells are blocked like any other and freed afterwards.
     Cleared,
 }
 

@@ -20,7 +20,7 @@ impl Paper {
         self.check_explored(faults);
     }
 
-    /// What is wrong with what `choice` votes by: numbers have sourced bounds, and a default that decides classes has a source.
+    /// What is wrong with the sources of `choice`: numbers need sourced bounds, and a default that decides verdicts needs a source.
     fn votes(&self, choice: &Choice) -> Vec<SettingsError> {
         let mut found = Vec::new();
         let mut wrong = |steps: &[&str], message: String, about: &[&str]| {
@@ -56,7 +56,7 @@ impl Paper {
         found
     }
 
-    /// What `choice` sets of nothing that a study runs which inherits it.
+    /// Settings of `choice` that touch nothing in any study that inherits it.
     fn idle(&self, choice: &Choice) -> Vec<SettingsError> {
         let inherits = |study: &&Study| study.choices.iter().any(|own| own.id == choice.id);
         let studies: Vec<&Study> = self.studies.iter().filter(inherits).collect();
@@ -141,8 +141,7 @@ impl Paper {
         })
     }
 
-    /// A contender departs from choices that its study does not inherit: over what it departs to, the option in hand of one that
-    /// its study has would be laid.
+    /// Refuses contenders that depart from a choice that their study inherits: the option of the study would hide theirs.
     fn check_departures(&self, faults: &mut Faults) {
         for study in &self.studies {
             for (index, contender) in study.contenders.iter().enumerate() {
@@ -167,7 +166,7 @@ impl Paper {
         }
     }
 
-    /// What is explored are studies of the paper, with more instances where there are more; a second seed is another one.
+    /// Refuses explored studies that the paper lacks, `more` instances that are not more, and a second seed that equals the first.
     fn check_explored(&self, faults: &mut Faults) {
         for study in self.studies.iter().filter(|study| study.second_seed == Some(study.seed)) {
             let message = format!("the second seed is the first, {}; another one is accepted", study.seed);

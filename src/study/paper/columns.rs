@@ -48,7 +48,7 @@ impl TableSpec {
         self.none.is_none() && column.none.is_none() && !is_repeated && printed.get_ref() != NOT_PRINTED
     }
 
-    /// What stands in a row of the column `column`; `None` where one of its two numbers is not printed or no claim that can be tested.
+    /// What stands in a row of the column `column`; `None` where one of its two numbers is not printed or is no testable claim.
     pub(super) fn difference(&self, row: &RowSpec, column: &ColumnSpec) -> Option<Difference> {
         let spoilt = [&self.untestable, &row.untestable, &column.untestable];
         if spoilt.into_iter().any(Option::is_some) {

@@ -59,7 +59,7 @@ pub struct Neighbours {
     pub radius_mm: Option<f64>,
     /// How far apart their configurations may be.
     pub radius_deg: Option<f64>,
-    /// How many nearest configurations are a sample's.
+    /// How many nearest configurations are a sample's neighbours.
     pub nearest: Option<u32>,
 }
 
@@ -67,7 +67,7 @@ impl Neighbours {
     /// The rule, with `times` the `radius_mm`.
     ///
     /// # Errors
-    /// Not exactly one is given; `radius_mm` seems to be in metres, or `radius_deg` in radians.
+    /// None or several are given; `radius_mm` seems to be in metres, or `radius_deg` in radians.
     pub fn rule(self, settings: &Settings, times: f64) -> Result<Near, SettingsError> {
         match (self.radius_mm, self.radius_deg, self.nearest) {
             (Some(radius_mm), None, None) => {

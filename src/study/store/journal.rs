@@ -168,7 +168,7 @@ impl Journal {
 
 /// About how many numbers a batch takes the room of.
 fn numbers(batch: &Batch) -> usize {
-    /// Those of a record's names, in the same measure.
+    /// How many numbers take the room of a record's names.
     const NAMES: usize = 24;
     let rows =
         batch.rows.iter().map(|row| &row.values).chain(batch.preprocessing.iter().map(|row| &row.values));

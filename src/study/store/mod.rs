@@ -402,7 +402,7 @@ struct Hashed {
 }
 
 impl Hashed {
-    /// Has the file on disk; its SHA-256.
+    /// Flushes the file to disk and gives its SHA-256.
     fn finish(self) -> io::Result<String> {
         self.file.sync_all().map(|()| self.hasher.finish())
     }

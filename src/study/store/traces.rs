@@ -64,7 +64,7 @@ impl TraceReader {
         Ok(Self { path, groups, read, instances })
     }
 
-    /// The next trace, which stays the next.
+    /// The next trace, without taking it.
     ///
     /// # Errors
     /// [`StudyError::Stored`].

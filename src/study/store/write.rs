@@ -195,7 +195,7 @@ impl<'c> RecordWriter<'c> {
         Ok(hashes.map(|(part, hash)| (part.to_owned(), hash)).into())
     }
 
-    /// Adds `traces`, and before them `batch` but for its own.
+    /// Adds the rows and preprocessed objects of `batch`, then `traces` in place of its own.
     pub(super) fn add_with(&mut self, batch: &Batch, mut traces: Traces<'_>) -> Result<(), StudyError> {
         batch.rows.iter().cloned().try_for_each(|row| self.trials.add(row))?;
         batch.preprocessing.iter().cloned().try_for_each(|row| self.preprocessing.add(row))?;

@@ -438,7 +438,7 @@ impl StatisticsPanel {
         self.problems.iter().enumerate().map(of).collect()
     }
 
-    /// Of each set of instances of the claim which share lies below which number; and what is printed.
+    /// For each set of the claim's instances, the share that lies below each number; and the printed number.
     fn distributions(&self, scene: &Scene<'_>) -> Result<Vec<Series>, RenderError> {
         let (paper, point) = (scene.evidence.paper, &scene.evidence.point);
         let claim = claim(&self.settings, paper, &self.spec.x)?;
