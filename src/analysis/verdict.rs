@@ -11,6 +11,9 @@ use study::paper::Reply;
 /// How the line begins that gives a probability after it was multiplied by the number of interpretations.
 pub const CORRECTED: &str = "p after ";
 
+/// A smaller p-value says no more.
+pub const LEAST_P: f64 = 0.0001;
+
 /// How the line begins that says which printed values would have been refused.
 pub const POWER: &str = "power: ";
 
@@ -392,7 +395,9 @@ impl ClaimVerdict {
             if self.is_seedless {
                 "the seed moves nothing".to_owned()
             } else {
-                let p = self.second_p.map_or_else(String::new, |p| format!(", p = {}", p_text(p)));
+                let p = self.second_p.map_or_else(String::new, |p| {
+                    if p < LEAST_P { format!(", p below {LEAST_P}") } else { format!(", p = {}", p_text(p)) }
+                });
                 format!("second seed: {}{p}", second.name())
             }
         });

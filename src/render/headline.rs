@@ -6,15 +6,12 @@ use super::effect::{effect, percentage, side_by_side};
 use super::figure::noun;
 use super::prose::number;
 use super::tables::short;
-use crate::analysis::verdict::{ClaimVerdict, Estimate, Quantity, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, Estimate, LEAST_P, Quantity, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
 use study::paper::Paper;
 
 /// A paper without headlines shows its first claims instead, at most so many.
 const CLAIMS: usize = 8;
-
-/// A smaller p-value says no more.
-const LEAST_P: f64 = 0.0001;
 
 /// What verdicts mean where no paper makes the claims.
 const OURS: &str = "No paper makes these claims: “reproduced” means that a claim of ours holds, “not reproduced” that it does not. ";

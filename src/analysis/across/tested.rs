@@ -35,7 +35,7 @@ pub fn tested(paper: &Paper, choices: &VotingChoices, first: &Exploration, claim
         .collect();
     results.sort_by(|one, other| other.0.total_cmp(&one.0));
     let times = table_means::interpretations(paper, claim);
-    let p = |value: f64| format!("p = {}{}", p_text(value), corrected(value, times, ""));
+    let p = |value: f64| format!("p = {}{}", p_text(value), bracketed(value, times));
     let named = |place: &usize| {
         let options = &first.interpretations[*place];
         let options: Vec<String> = options.iter().map(|(id, option)| format!("{id} = {option}")).collect();
@@ -58,10 +58,14 @@ pub fn tested(paper: &Paper, choices: &VotingChoices, first: &Exploration, claim
     by_option(choices, &touching, first, &results, times).into_iter().chain(named).chain(rest).collect()
 }
 
-/// What a probability is after correcting for so many interpretations, with `more` words; nothing for one.
-fn corrected(value: f64, times: usize, more: &str) -> String {
-    let corrected = || format!(", {} after correcting{more}", p_text((value * times as f64).min(1.0)));
-    if times > 1 { corrected() } else { String::new() }
+/// What a probability is after correcting for so many interpretations; `None` for one.
+fn corrected(value: f64, times: usize) -> Option<String> {
+    (times > 1).then(|| format!("{} after correcting", p_text((value * times as f64).min(1.0))))
+}
+
+/// The same in brackets, or nothing.
+fn bracketed(value: f64, times: usize) -> String {
+    corrected(value, times).map_or_else(String::new, |corrected| format!(" ({corrected})"))
 }
 
 /// Which options of the choices `touching` the claim fit, which fit with no option of other choices, and what speaks against each of
@@ -105,7 +109,7 @@ pub(super) fn by_option(
             greatest_of_all = greatest_of_all.max(value);
             let farthest =
                 result.farthest.as_ref().map_or_else(String::new, |far| format!("; farthest off is {far}"));
-            let p = format!("p at most {}{}", p_text(value), corrected(value, times, ""));
+            let p = format!("p at most {}{}", p_text(value), bracketed(value, times));
             against.push(format!("{AGAINST}{} = {option}: {p}{farthest}", choice.id));
         }
     }
@@ -114,8 +118,9 @@ pub(super) fn by_option(
     }
     let with_any = if any.is_empty() { String::new() } else { format!(", with any {}", any.join(", ")) };
     let fits = format!("{FITS}{}{with_any}", fits.join(", "));
-    let p = corrected(greatest_of_all, times, &format!(" for {times} interpretations"));
-    let p = format!("p at most {}{p}", p_text(greatest_of_all));
+    let corrected = corrected(greatest_of_all, times)
+        .map_or_else(String::new, |corrected| format!(", and {corrected} for {times} interpretations"));
+    let p = format!("p at most {}{corrected}", p_text(greatest_of_all));
     let refuses = format!("{REFUSES}{} ({p})", refuses.join(", "));
     [fits, refuses].into_iter().chain(against).collect()
 }

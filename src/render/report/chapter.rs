@@ -139,10 +139,13 @@ impl Page<'_> {
             let mut against = judged.by_option(AGAINST).peekable();
             if against.peek().is_some() {
                 let test = link(judged, &format!("`{}`", judged.claim), &details);
-                *text += &format!(
-                    "\nWhat {test} refuses, and the printed number that is farthest from ours there:\n\n"
+                let about = format!(
+                    "Options that {test} refuses, each under the interpretation where its p is greatest, with the printed number \
+                     that is farthest from ours there:"
                 );
+                *text += &(wrapped("", &about, 0, COLUMNS) + "\n\n");
                 text.extend(against.map(|line| item(0, &markdown(line))));
+                text.push('\n');
             }
         }
     }
