@@ -29,6 +29,8 @@ pub struct ClaimTest<'a> {
 pub struct CappedFinding {
     /// The finding.
     pub finding: CriterionFinding,
+    /// The printed number that is farthest from ours, in words.
+    pub farthest: Option<String>,
     /// What lowers its outcome.
     pub caps: Caps,
     /// The share of the paths that come back which the verifier refuses.
@@ -174,12 +176,14 @@ impl<'a> ClaimTest<'a> {
             not_run: !not_run.is_empty(),
         };
         found.premises.extend(premises(claim));
+        let farthest = found.farthest.take();
         let mut finding = finding(self.entry.name, found, caps, &not_run);
         if self.is_shown() {
             (finding.outcome, finding.settles) = (None, None);
         }
         CappedFinding {
             finding,
+            farthest,
             caps,
             refused: numbers.refused,
             is_covered: numbers.is_covered,

@@ -210,6 +210,7 @@ fn judged(
         changed_after_run: claim.changed_after_run.clone(),
         changes: Vec::new(),
         second: None,
+        second_p: None,
         is_seedless: false,
         across: None,
         interpretation: evidence.point.name().to_owned(),

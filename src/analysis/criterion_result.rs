@@ -37,6 +37,8 @@ pub struct CriterionResult {
     pub power: Option<String>,
     /// The instances that it takes at least, where there are fewer.
     pub needs: Option<usize>,
+    /// The printed number that is farthest from ours, with both, in words.
+    pub farthest: Option<String>,
 }
 
 /// How an interval narrows as there are more units.

@@ -1,5 +1,6 @@
 //! Verdicts: the finding about each claim.
 
+use super::criterion::table_means::p_text;
 use super::outcome::{Outcome, Polarity};
 use super::verdict_rule::{Chosen, Verdict};
 use serde::{Deserialize, Serialize};
@@ -7,8 +8,14 @@ use stats::interval::Interval;
 use std::collections::BTreeMap;
 use study::paper::Reply;
 
-/// How the line begins that gives a probability times the number of interpretations.
-pub const TIMES: &str = "p times ";
+/// How the line begins that gives a probability after it was multiplied by the number of interpretations.
+pub const CORRECTED: &str = "p after ";
+
+/// A smaller p-value says no more.
+pub const LEAST_P: f64 = 0.0001;
+
+/// How the line begins that says which printed values would have been refused.
+pub const POWER: &str = "power: ";
 
 /// What kind of number an estimate is.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -291,6 +298,9 @@ pub struct ClaimVerdict {
     /// Its outcome under the default interpretation on the second seed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second: Option<Outcome>,
+    /// Its p of a joint test there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_p: Option<f64>,
     /// Whether nothing that it looks at is drawn, so that a second seed changes nothing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_seedless: bool,
@@ -359,18 +369,18 @@ impl ClaimVerdict {
     /// Which printed values would have been refused, in words.
     pub fn power(&self) -> Option<&str> {
         let mut because = self.findings.iter().flat_map(|finding| &finding.because);
-        because.find_map(|line| line.strip_prefix("power: "))
+        because.find_map(|line| line.strip_prefix(POWER))
     }
 
-    /// Its probability times the number of interpretations that the paper may mean, in words.
-    pub fn multiplied(&self) -> Option<&str> {
+    /// What its probability was multiplied for, the number of interpretations that the paper may mean, and what it is then.
+    pub fn corrected(&self) -> Option<(&str, &str)> {
         let mut because = self.findings.iter().flat_map(|finding| &finding.because);
-        because.find_map(|line| line.strip_prefix(TIMES))
+        because.find_map(|line| line.strip_prefix(CORRECTED))?.split_once(": ")
     }
 
-    /// The line of a joint test that begins with `what`: which options fit, or which do not.
-    pub fn by_option(&self, what: &str) -> Option<&str> {
-        self.across.as_ref()?.tested.iter().find_map(|line| line.strip_prefix(what))
+    /// The lines of a joint test that begin with `what`: which options fit, which do not, or what speaks against one of these.
+    pub fn by_option(&self, what: &str) -> impl Iterator<Item = &str> {
+        self.across.iter().flat_map(|across| &across.tested).filter_map(move |line| line.strip_prefix(what))
     }
 
     /// What would settle it, where it is open.
@@ -385,7 +395,10 @@ impl ClaimVerdict {
             if self.is_seedless {
                 "the seed moves nothing".to_owned()
             } else {
-                format!("second seed: {}", second.name())
+                let p = self.second_p.map_or_else(String::new, |p| {
+                    if p < LEAST_P { format!(", p below {LEAST_P}") } else { format!(", p = {}", p_text(p)) }
+                });
+                format!("second seed: {}{p}", second.name())
             }
         });
         let words: Vec<String> = self.beside.iter().cloned().chain(second).collect();

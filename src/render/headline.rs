@@ -7,16 +7,13 @@ use super::figure::noun;
 use super::prose::number;
 use super::tables::short;
 use crate::analysis::settle::COMBINATION;
-use crate::analysis::verdict::{ClaimVerdict, Estimate, Quantity, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, Estimate, LEAST_P, Quantity, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
 use study::Choice;
 use study::paper::Paper;
 
 /// A paper without headlines shows its first claims instead, at most so many.
 const CLAIMS: usize = 8;
-
-/// A smaller p-value says no more.
-const LEAST_P: f64 = 0.0001;
 
 /// What verdicts mean where no paper makes the claims.
 const OURS: &str = "No paper makes these claims: “reproduced” means that a claim of ours holds, “not reproduced” that it does not. ";
@@ -175,11 +172,7 @@ pub fn ours(judged: &ClaimVerdict, paper: &Paper, verdicts: &Verdicts) -> Option
             judged.printed.as_ref().map_or_else(String::new, |printed| format!("printed {printed}, ours "));
         let number = match ours.quantity {
             Quantity::Rank => rank(ours, noun),
-            Quantity::Probability if ours.value < LEAST_P => format!("p below {LEAST_P}"),
-            Quantity::Probability => {
-                let times = judged.multiplied().map_or_else(String::new, |times| format!(", times {times}"));
-                format!("p = {}{times}", number(ours.value))
-            }
+            Quantity::Probability => probability(ours.value, judged),
             _ => effect(ours).unwrap_or_else(|| short(ours) + &unit),
         };
         // One instance may hold many cases, such as the queries of one map.
@@ -190,6 +183,20 @@ pub fn ours(judged: &ClaimVerdict, paper: &Paper, verdicts: &Verdicts) -> Option
     let [numbers, n] = side_by_side(&verdicts.parts_ours(judged))?;
     let noun = if n == "1" { counted(1, noun) } else { noun };
     Some(format!("{numbers} (n = {n} {noun})"))
+}
+
+/// A probability, with what it is after a correction and on the second seed.
+fn probability(p: f64, judged: &ClaimVerdict) -> String {
+    let is_least = p < LEAST_P;
+    let first = if is_least { format!("p below {LEAST_P}") } else { format!("p = {}", number(p)) };
+    let corrected = judged.corrected().filter(|_| !is_least);
+    let corrected =
+        corrected.map_or_else(String::new, |(what, corrected)| format!(", and {corrected} after {what}"));
+    let second = judged.second_p.map_or_else(String::new, |p| {
+        let p = if p < LEAST_P { format!("below {LEAST_P}") } else { number(p) };
+        format!("; second seed {p}")
+    });
+    first + &corrected + &second
 }
 
 /// From this share on the printed numbers are called ordinary among ours.

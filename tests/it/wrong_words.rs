@@ -122,7 +122,7 @@ pub const WRONG: &[Wrong] = &[
         "draws",
         "goal = [11, 9]",
         "goal = [12, 9]",
-        "mini/draws.toml:19:60: goal is [12, 9], outside the map; cells are 0..12 by 0..12",
+        "mini/draws.toml:19:60: goal is [12, 9], outside the map; cells from [0, 0] to [11, 11] are accepted",
     ),
     wrong(
         "room",
@@ -134,7 +134,7 @@ pub const WRONG: &[Wrong] = &[
         "room",
         "goal = [6, 3]",
         "goal = [7, 3]",
-        "the goal [7.0, 3.0] is not a cell of the map; cells are 0..7 by",
+        "the goal [7.0, 3.0] is not a cell of the map; cells from [0, 0] to [6, ",
     ),
     wrong(
         "room",

@@ -46,6 +46,8 @@ pub struct Glance {
     pub sight: Sight,
     /// Our number, its interval, and the number of instances.
     pub ours: Option<(f64, Option<[f64; 2]>, usize)>,
+    /// The printed number that is farthest from ours, in words.
+    pub farthest: Option<String>,
     /// The share of returned paths that the verifier refuses, from 0 to 1.
     pub refused: f64,
     /// A hash of the results that it rests on.
@@ -155,6 +157,7 @@ fn alone(claim: &Claim, weighed: &[CappedFinding]) -> Glance {
         outcome,
         sight,
         ours: ours.map(|ours| (ours.value, ours.interval, ours.n)),
+        farthest: deciding.iter().find_map(|one| one.farthest.clone()),
         refused: weighed.iter().filter(decides).map(|one| one.refused).fold(0.0, f64::max),
         results: digest(weighed),
         studies: weighed.iter().filter(decides).flat_map(|one| one.studies.iter().cloned()).collect(),
@@ -210,6 +213,7 @@ fn with_parts(paper: &Paper, point: &Interpretation, mut glances: Glances) -> Gl
             outcome,
             sight: sight.unwrap_or(Sight::Looked),
             ours: None,
+            farthest: None,
             refused: parts.iter().map(|part| part.refused).fold(0.0, f64::max),
             results: sha256(results.as_bytes())[..12].to_owned(),
             studies: parts.iter().flat_map(|part| part.studies.iter().cloned()).collect(),

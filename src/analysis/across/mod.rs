@@ -25,7 +25,7 @@ use super::outcome::{Outcome, Polarity};
 use super::polylines::Polylines;
 use super::settle::{MEANT, across_settles, meanings_settle};
 use super::together::greatest;
-use super::verdict::{Across, ClaimVerdict, Explored as Note, Verdicts};
+use super::verdict::{Across, ClaimVerdict, Explored as Note, Quantity, Verdicts};
 use super::verdict_rule::{Line, Results, Verdict, of_meanings};
 use count::{Counted, Group, VotingChoices};
 use std::collections::{BTreeMap, BTreeSet};
@@ -171,7 +171,10 @@ impl OfClaim<'_> {
     fn look_at_seeds(&self, judged: &mut ClaimVerdict, touched: &Touched<'_>) {
         let own = self.second.and_then(|second| second.result(&self.claim.id, 0));
         let own = own.filter(|_| touched.looks_at_trials());
-        judged.second = own.filter(|own| own.sight == glance::Sight::Looked).map(|own| own.outcome);
+        let own = own.filter(|own| own.sight == glance::Sight::Looked);
+        judged.second = own.map(|own| own.outcome);
+        let is_p = judged.ours().is_some_and(|ours| ours.quantity == Quantity::Probability);
+        judged.second_p = own.and_then(|own| own.value).filter(|_| is_p);
         let is_moved = judged.second.is_some_and(|second| second != judged.outcome);
         judged.is_seedless = !is_moved && touched.draws_nothing(self.paper);
         let deciding = judged.findings.iter_mut().filter(|finding| finding.outcome.is_some());

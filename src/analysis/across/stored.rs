@@ -79,6 +79,8 @@ pub struct ExploredResult {
     pub interval: Option<[f64; 2]>,
     /// How many instances it rests on.
     pub n: usize,
+    /// The printed number that is farthest from ours, in words.
+    pub farthest: Option<String>,
     /// The share of returned paths that the verifier refuses, from 0 to 1.
     pub refused: f64,
     /// A hash of the trials' results.
@@ -196,6 +198,7 @@ impl ExploredResult {
             value: None,
             interval: None,
             n: 0,
+            farthest: None,
             refused: 0.0,
             results: glance.results.clone(),
         };
@@ -211,6 +214,7 @@ impl ExploredResult {
         self.interval =
             interval.map(|ends| ends.map(shown)).filter(|ends| ends.iter().all(|end| end.is_finite()));
         self.n = glance.ours.map_or(0, |(_, _, n)| n);
+        self.farthest.clone_from(&glance.farthest);
     }
 }
 

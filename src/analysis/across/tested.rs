@@ -19,7 +19,10 @@ const REFUSED: usize = 10;
 pub const FITS: &str = "fits: ";
 
 /// How the line begins that says which options fit with no other.
-pub const REFUSES: &str = "refuses, each with its greatest p: ";
+pub const REFUSES: &str = "refuses: ";
+
+/// How the line of each of these begins, with the printed number that is farthest from ours where its p is greatest.
+pub const AGAINST: &str = "against ";
 
 /// The lines of a claim that is tested jointly: which options fit and which do not, and its results, the likeliest first, each with the
 /// interpretations that give it.
@@ -32,10 +35,7 @@ pub fn tested(paper: &Paper, choices: &VotingChoices, first: &Exploration, claim
         .collect();
     results.sort_by(|one, other| other.0.total_cmp(&one.0));
     let times = table_means::interpretations(paper, claim);
-    let p = |value: f64| match times {
-        1 => format!("p = {}", p_text(value)),
-        _ => format!("p = {}, times {times} {}", p_text(value), p_text((value * times as f64).min(1.0))),
-    };
+    let p = |value: f64| format!("p = {}{}", p_text(value), bracketed(value, times));
     let named = |place: &usize| {
         let options = &first.interpretations[*place];
         let options: Vec<String> = options.iter().map(|(id, option)| format!("{id} = {option}")).collect();
@@ -55,27 +55,32 @@ pub fn tested(paper: &Paper, choices: &VotingChoices, first: &Exploration, claim
     });
     let named = kept.into_iter().chain(refused.into_iter().take(REFUSED)).map(line);
     let touching = table_means::touching(paper, claim);
-    by_option(choices, &touching, first, &results, &p)
-        .into_iter()
-        .flatten()
-        .chain(named)
-        .chain(rest)
-        .collect()
+    by_option(choices, &touching, first, &results, times).into_iter().chain(named).chain(rest).collect()
 }
 
-/// Which options of the choices `touching` the claim fit, and which fit with no option of other choices, of `results` under
-/// interpretations that vote; `None` unless there are both.
+/// What a probability is after correcting for so many interpretations; `None` for one.
+fn corrected(value: f64, times: usize) -> Option<String> {
+    (times > 1).then(|| format!("{} after correcting", p_text((value * times as f64).min(1.0))))
+}
+
+/// The same in brackets, or nothing.
+fn bracketed(value: f64, times: usize) -> String {
+    corrected(value, times).map_or_else(String::new, |corrected| format!(" ({corrected})"))
+}
+
+/// Which options of the choices `touching` the claim fit, which fit with no option of other choices, and what speaks against each of
+/// these, of `results` under interpretations that vote; empty unless there are both.
 pub(super) fn by_option(
     choices: &VotingChoices,
     touching: &BTreeMap<&str, &Choice>,
     first: &Exploration,
     results: &[(f64, &ExploredResult)],
-    p: &impl Fn(f64) -> String,
-) -> Option<[String; 2]> {
+    times: usize,
+) -> Vec<String> {
     let seen = results.iter().filter(|(_, result)| result.sight == Sight::Looked);
     let each = seen.flat_map(|(value, result)| {
         let places = result.interpretations.iter().map(|place| &first.interpretations[*place]);
-        places.map(move |place| (place, *value, result.outcome.polarity() == Polarity::For))
+        places.map(move |place| (place, (*value, *result), result.outcome.polarity() == Polarity::For))
     });
     let voting: Vec<_> = each.filter(|(place, ..)| choices.votes(place)).collect();
     let options = |choice: &Choice, fitting: bool| -> BTreeSet<String> {
@@ -83,6 +88,7 @@ pub(super) fn by_option(
         of.map(|(place, ..)| VotingChoices::option(choice, place).to_owned()).collect()
     };
     let (mut fits, mut refuses, mut any) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut against, mut greatest_of_all) = (Vec::new(), 0.0_f64);
     for choice in choices.choices.iter().filter(|choice| touching.contains_key(choice.id.as_str())) {
         let (looked, kept) = (options(choice, false), options(choice, true));
         if looked.len() < 2 || kept.is_empty() {
@@ -94,13 +100,27 @@ pub(super) fn by_option(
         }
         let kept_options: Vec<&str> = kept.iter().map(String::as_str).collect();
         fits.push(format!("{} = {}", choice.id, kept_options.join(" or ")));
-        for option in looked.difference(&kept) {
-            let own = voting.iter().filter(|(place, ..)| VotingChoices::option(choice, place) == *option);
-            let greatest = own.map(|(_, value, _)| *value).fold(0.0, f64::max);
-            refuses.push(format!("{} = {option} ({})", choice.id, p(greatest)));
+        let refused: Vec<&str> = looked.difference(&kept).map(String::as_str).collect();
+        refuses.push(format!("{} = {}", choice.id, refused.join(" or ")));
+        for option in refused {
+            let own = voting.iter().filter(|(place, ..)| VotingChoices::option(choice, place) == option);
+            let likeliest = own.map(|(_, found, _)| *found).max_by(|one, other| one.0.total_cmp(&other.0));
+            let Some((value, result)) = likeliest else { continue };
+            greatest_of_all = greatest_of_all.max(value);
+            let farthest =
+                result.farthest.as_ref().map_or_else(String::new, |far| format!("; farthest off is {far}"));
+            let p = format!("p at most {}{}", p_text(value), bracketed(value, times));
+            against.push(format!("{AGAINST}{} = {option}: {p}{farthest}", choice.id));
         }
     }
+    if fits.is_empty() {
+        return Vec::new();
+    }
     let with_any = if any.is_empty() { String::new() } else { format!(", with any {}", any.join(", ")) };
-    (!fits.is_empty())
-        .then(|| [format!("{FITS}{}{with_any}", fits.join(", ")), REFUSES.to_owned() + &refuses.join(", ")])
+    let fits = format!("{FITS}{}{with_any}", fits.join(", "));
+    let corrected = corrected(greatest_of_all, times)
+        .map_or_else(String::new, |corrected| format!(", and {corrected} for {times} interpretations"));
+    let p = format!("p at most {}{corrected}", p_text(greatest_of_all));
+    let refuses = format!("{REFUSES}{} ({p})", refuses.join(", "));
+    [fits, refuses].into_iter().chain(against).collect()
 }

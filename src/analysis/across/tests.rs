@@ -86,6 +86,7 @@ fn result((place, outcome): (usize, &Outcome)) -> ExploredResult {
         value: None,
         interval: None,
         n: 1,
+        farthest: None,
         refused: 0.0,
         results: place.to_string(),
     }
@@ -163,24 +164,30 @@ fn a_joint_test_names_the_options_that_fit_and_those_that_fit_with_no_other() {
     // The claim does not look at what the choice of a planner touches.
     let defaults = [("blocking", "draws"), ("border", "spared"), ("smoothing", "start"), ("planner", "one")];
     let mut planted = Planted::new(&defaults, &found);
+    let far = |place: usize| Some(format!("cell {place}: printed 2, ours 1 (+3.0 σ)"));
+    for (place, result) in planted.first.claims.get_mut("fewer").unwrap().results.iter_mut().enumerate() {
+        result.farthest = far(place);
+    }
     let by_options = |planted: &Planted| {
         let results = &planted.first.claims["fewer"].results;
         let values = results.iter().zip([0.4, 0.3, 0.02, 0.01, 0.03, 0.04]);
         let results: Vec<_> = values.map(|(result, value)| (value, result)).collect();
         let all = &planted.choices.choices;
         let touching = all.iter().filter(|choice| choice.id != "planner").map(|own| (own.id.as_str(), own));
-        by_option(&planted.choices, &touching.collect(), &planted.first, &results, &|p| format!("p = {p}"))
+        by_option(&planted.choices, &touching.collect(), &planted.first, &results, 4)
     };
     let both = [
         "fits: blocking = draws, border = cleared or spared, with any smoothing",
-        "refuses, each with its greatest p: blocking = count (p = 0.03), border = counted (p = 0.03)",
+        "refuses: blocking = count, border = counted (p at most 0.030, and 0.120 after correcting for 4 interpretations)",
+        "against blocking = count: p at most 0.030 (0.120 after correcting); farthest off is cell 4: printed 2, ours 1 (+3.0 σ)",
+        "against border = counted: p at most 0.030 (0.120 after correcting); farthest off is cell 4: printed 2, ours 1 (+3.0 σ)",
     ];
-    assert_eq!(by_options(&planted), Some(both.map(str::to_owned)));
+    assert_eq!(by_options(&planted), both);
     // What a test refuses under probes alone says nothing of what the paper may mean.
     for (choice, option) in [(0, "count"), (1, "counted")] {
         planted.choices.choices[choice].options.insert(option.to_owned(), Arc::new(OptionSpec::default()));
     }
-    assert_eq!(by_options(&planted), None);
+    assert_eq!(by_options(&planted), Vec::<String>::new());
 }
 
 #[test]
@@ -328,6 +335,7 @@ fn glance(outcome: Outcome, n: usize, results: &str) -> Glance {
         outcome,
         sight: Sight::Looked,
         ours: Some((0.0, None, n)),
+        farthest: None,
         refused: 0.0,
         results: results.to_owned(),
         studies: BTreeSet::new(),

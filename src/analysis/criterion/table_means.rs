@@ -15,7 +15,7 @@ use crate::analysis::number::{Ends, Number, parts, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Instance, Selection, by_instance};
 use crate::analysis::statistic::mean;
-use crate::analysis::verdict::{Estimate, Quantity, TIMES};
+use crate::analysis::verdict::{CORRECTED, Estimate, Quantity};
 use base::settings::{Accepted, Faults, SettingsError};
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
@@ -72,6 +72,7 @@ pub fn p_text(p: f64) -> String {
 
 struct Cell<'a> {
     id: &'a str,
+    at: &'a str,
     mean: MeanOf<'a>,
 }
 
@@ -164,7 +165,25 @@ fn cell<'a>(context: &Context<'a>, at: &str, id: &str) -> Result<Option<Cell<'a>
         return Err(context.settings.error_at(at, message).about("check"));
     };
     let mean = MeanOf::new(&Context { claim, settings, ..*context })?;
-    Ok(Some(Cell { id: &claim.id, mean }))
+    Ok(Some(Cell { id: &claim.id, at: &claim.at, mean }))
+}
+
+/// The end of `other` that tells it from `one`, from a comma on.
+fn differing<'t>(one: &str, other: &'t str) -> &'t str {
+    let common = one.bytes().zip(other.bytes()).take_while(|(one, other)| one == other).count();
+    let begins = other.get(..common).and_then(|common| common.rfind(", "));
+    &other[begins.map_or(0, |comma| comma + 2)..]
+}
+
+/// With how many decimals a number is printed that is rounded by at most this.
+fn decimals(half_width: f64) -> usize {
+    (-libm::log10(2.0 * half_width)).round().max(0.0) as usize
+}
+
+/// What is farthest from what is printed in any row, in words.
+fn farthest(rows: Vec<RowResult<'_>>) -> Option<String> {
+    let apart = rows.into_iter().filter_map(|row| row.apart);
+    apart.max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, words)| words)
 }
 
 /// What a row gives.
@@ -179,6 +198,8 @@ struct RowResult<'a> {
     loudest: Vec<String>,
     /// The cell that is farthest from what is printed, by its place in the row.
     farthest: usize,
+    /// What is farthest from what is printed, a cell or the difference of two: by how many standard errors, and in words.
+    apart: Option<(f64, String)>,
     /// Exact cells that do not print as the paper's.
     refused: Vec<&'a str>,
     /// The test of the row, and its T² if every number were off by 100 %: the power follows from both.
@@ -243,6 +264,13 @@ impl<'a> TableMeans<'a> {
         let label = row[0].mean.selection.groups.join(", ");
         let rounding: Vec<f64> = moving.iter().map(|cell| row[*cell].mean.rounded.half_width()).collect();
         let p_exact = f64::from(u8::from(refused.is_empty()));
+        let otherwise = (!refused.is_empty()).then(|| {
+            let Cell { at, mean, .. } = &row[first_refused];
+            (
+                f64::INFINITY,
+                format!("{at}: printed {}, ours {} on every instance", mean.printed, ours[first_refused]),
+            )
+        });
         if moving.is_empty() && units >= FEWEST_NORMAL {
             let loudest = Vec::new();
             return Some(RowResult {
@@ -251,6 +279,7 @@ impl<'a> TableMeans<'a> {
                 test: None,
                 loudest,
                 farthest: first_refused,
+                apart: otherwise,
                 refused,
                 power: None,
             });
@@ -269,12 +298,29 @@ impl<'a> TableMeans<'a> {
             Some(from) => format!("{} less {} {errors:+.1} σ", name(cell), name(from)),
         };
         let loudest = test.loudest(&apart, 3).into_iter().map(spoken).collect();
-        let far = test.loudest(&apart, 1).first().map_or(0, |far| moving[far.cell]);
-        let farthest = if refused.is_empty() { far } else { first_refused };
+        let far = test.loudest(&apart, 1).into_iter().next();
+        let farthest = far.filter(|_| refused.is_empty()).map_or(first_refused, |far| moving[far.cell]);
+        let both = |far: Apart| {
+            let of = |place: usize| (&row[moving[place]], test.means[place]);
+            let (cell, mean) = of(far.cell);
+            let (less, printed, own) = far.from.map(of).map_or((String::new(), 0.0, 0.0), |(from, own)| {
+                (format!(" less {}", differing(cell.at, from.at)), from.mean.printed, own)
+            });
+            let decimals = decimals(cell.mean.rounded.half_width());
+            format!(
+                "{}{less}: printed {:.decimals$}, ours {:.decimals$} ({:+.1} σ)",
+                cell.at,
+                cell.mean.printed - printed,
+                mean - own,
+                far.errors
+            )
+        };
+        let apart = otherwise.or_else(|| far.map(|far| (far.errors.abs(), both(far))));
         let p = test.probability(statistic) * p_exact;
         let at_one = test.statistic(&test.means);
         let shape = Some((statistic, moving.len(), units));
-        Some(RowResult { label, p, test: shape, loudest, farthest, refused, power: Some((test, at_one)) })
+        let power = Some((test, at_one));
+        Some(RowResult { label, p, test: shape, loudest, farthest, apart, refused, power })
     }
 
     /// What each row gives; `None` if one has too few instances.
@@ -327,7 +373,8 @@ impl<'a> TableMeans<'a> {
         };
         let whole = format!("all rows together (Fisher): p = {p:.2e}, refused below {}", self.refused_below);
         let many = self.interpretations;
-        let times = (many > 1).then(|| format!("{TIMES}{many} interpretations: {}", p_text(self.judged(p))));
+        let times = (many > 1)
+            .then(|| format!("{CORRECTED}correcting for {many} interpretations: {}", p_text(self.judged(p))));
         std::iter::once(whole).chain(times).chain(rows.iter().map(of_row)).collect()
     }
 }
@@ -375,6 +422,7 @@ impl Criterion for TableMeans<'_> {
             censored: all.unended,
             powerless: power.is_none() && is_kept && rows.iter().any(|row| row.test.is_some()),
             power,
+            farthest: farthest(rows),
             ..CriterionResult::default()
         }
     }

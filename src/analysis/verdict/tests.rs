@@ -59,6 +59,10 @@ fn a_seed_that_moves_nothing_says_so_in_place_of_its_outcome() {
     };
     assert_eq!(one(false).beside_with_seed().unwrap(), "same under all 3; second seed: holds");
     assert_eq!(one(true).beside_with_seed().unwrap(), "same under all 3; the seed moves nothing");
+    for (p, words) in [(0.108_21, "holds, p = 0.108"), (3e-9, "holds, p below 0.0001")] {
+        let joint = ClaimVerdict { second_p: Some(p), ..one(false) };
+        assert_eq!(joint.beside_with_seed().unwrap(), format!("same under all 3; second seed: {words}"));
+    }
 }
 
 #[test]

@@ -126,11 +126,14 @@ impl SettingsError {
         }
     }
 
-    /// The same thing at the same place, whatever was laid over it.
+    /// The same thing at the same place, whatever was laid over it and is accepted there: one number may leave maps of several sizes.
     fn repeats(&self, known: &Self) -> bool {
+        let found = |message: &str| {
+            message.split_once("; ").map_or_else(|| message.to_owned(), |(found, _)| found.to_owned())
+        };
         match (self, known) {
             (Self::At { message: own, .. }, Self::At { message, .. }) => {
-                self.place() == known.place() && own == message
+                self.place() == known.place() && found(own) == found(message)
             }
             _ => self == known,
         }

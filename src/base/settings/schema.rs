@@ -9,12 +9,12 @@ pub(super) struct Node<'a> {
     value: &'a Value,
 }
 
-/// The smallest and the largest whole number of the formats that say no bounds themselves.
+/// The smallest and the largest whole number of the formats that say no bounds themselves; how far a machine counts is no bound.
 const INTEGERS: [(&str, f64, f64); 6] = [
-    ("uint32", 0.0, 4_294_967_295.0),
+    ("uint32", 0.0, f64::INFINITY),
     ("uint64", 0.0, f64::INFINITY),
     ("uint", 0.0, f64::INFINITY),
-    ("int32", -2_147_483_648.0, 2_147_483_647.0),
+    ("int32", f64::NEG_INFINITY, f64::INFINITY),
     ("int64", f64::NEG_INFINITY, f64::INFINITY),
     ("int", f64::NEG_INFINITY, f64::INFINITY),
 ];
@@ -112,9 +112,11 @@ impl<'a> Node<'a> {
         )
     }
 
-    /// The end of the format's range that a whole number passes, where no float tells the two apart.
+    /// The end of the format's range that a whole number passes.
     pub(super) fn limit_passed(self, whole: i128) -> Option<i128> {
         let (least, most): (i128, i128) = match self.text("format")? {
+            "uint32" => (0, u32::MAX.into()),
+            "int32" => (i32::MIN.into(), i32::MAX.into()),
             "uint64" | "uint" => (0, u64::MAX.into()),
             "int64" | "int" => (i64::MIN.into(), i64::MAX.into()),
             _ => return None,

@@ -281,6 +281,30 @@ fn all_faults_of_a_file_are_found_at_once_in_the_order_of_their_places() {
 }
 
 #[test]
+fn what_is_accepted_of_a_whole_number_does_not_depend_on_how_far_a_machine_counts() {
+    let text = "share = 1\nname = 'x'\nsize = [-1, 4294967296]\n[inner]\n".to_owned();
+    let message = Document::new(Path::new("a.toml"), text).read::<Mixed>().unwrap_err().to_string();
+    for expected in [
+        "`size[0]` is -1; a whole number of 0 or more is accepted",
+        "`size[1]` is 4294967296; a whole number of 0 or more (no further than 4294967295) is accepted",
+    ] {
+        assert!(message.contains(expected), "{message}\nlacks\n{expected}");
+    }
+}
+
+#[test]
+fn one_number_that_several_maps_refuse_is_one_fault() {
+    let settings = second_part("[[part]]\nsettings = {}\n[[part]]\nsettings = { weight = 9 }\n");
+    let mut faults = Faults::default();
+    for (found, most) in [("weight is 9", 5), ("weight is 9", 2), ("weight is odd", 8)] {
+        faults.add(settings.error_at("weight", format!("{found}; up to {most} is accepted")));
+    }
+    let message = faults.error().to_string();
+    assert_eq!(message.matches("a.toml").count(), 2, "{message}");
+    assert!(message.contains("weight is 9; up to 5") && message.contains("odd; up to 8"), "{message}");
+}
+
+#[test]
 fn of_very_many_faults_the_first_fifty_are_shown_and_the_others_counted() {
     let entries = "[[solid]]\nshape = 'ball'\nradius = 'r'\n".repeat(60);
     let document = Document::new(Path::new("a.toml"), format!("count = 1\n{entries}"));

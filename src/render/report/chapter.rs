@@ -5,6 +5,7 @@ use super::{
     SECTIONS, Undrawn, anchor, begin_of_row, is_in_chapter, item, link, linked, paragraph, place,
     with_caption,
 };
+use crate::analysis::across::tested::AGAINST;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::verdict::{ClaimVerdict, Verdicts};
 use crate::analysis::verdict_rule::Column;
@@ -134,6 +135,19 @@ impl Page<'_> {
             *text += &format!("| {says} | {} | {ours} | {} |\n", markdown(&judged.at), markdown(&verdict));
         }
         *text += &format!("\n{}", paragraph(&evidence(self.evidence.paper, self.verdicts)));
+        for judged in self.verdicts.headlines(self.evidence.paper) {
+            let mut against = judged.by_option(AGAINST).peekable();
+            if against.peek().is_some() {
+                let test = link(judged, &format!("`{}`", judged.claim), &details);
+                let about = format!(
+                    "Options that {test} refuses, each under the interpretation where its p is greatest, with the printed number \
+                     that is farthest from ours there:"
+                );
+                *text += &(wrapped("", &about, 0, COLUMNS) + "\n\n");
+                text.extend(against.map(|line| item(0, &markdown(line))));
+                text.push('\n');
+            }
+        }
     }
 
     /// The paper's tables that hold claims, and those of our results that the chapter shows.

@@ -5,7 +5,7 @@ use super::chapter::Page;
 use super::interpretations::across_lines;
 use super::{SECTIONS, anchor, is_in_chapter, item, link, linked, links, paragraph, place, with_caption};
 use crate::analysis::citation::version_in;
-use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, Together, Verdicts};
+use crate::analysis::verdict::{ClaimVerdict, CriterionFinding, POWER, Together, Verdicts};
 use crate::render::prose::{COLUMNS, markdown, wrapped};
 use crate::render::results;
 use crate::render::tables::{self, short};
@@ -298,8 +298,12 @@ fn finding_lines<'a>(
         (!finding.premises.is_empty()).then(|| format!("premises: {}", finding.premises.join("; ")));
     for line in because.chain(settles).chain(premises) {
         let first = *known.entry(line.clone()).or_insert(claim);
-        let is_known = first != claim && line.len() > SHORT;
-        let line = if is_known { format!("as for {}", links(&[first])) } else { linked(&line, verdicts, "") };
+        let is_known = first != claim && line.len() > SHORT && !line.starts_with(POWER);
+        let line = if is_known {
+            format!("the same as for {}: see there", links(&[first]))
+        } else {
+            linked(&line, verdicts, "")
+        };
         if !lines.contains(&(1, line.clone())) {
             lines.push((1, line));
         }

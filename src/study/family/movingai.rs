@@ -165,7 +165,10 @@ impl Family for Posed {
 mod tests {
     use super::*;
     use crate::Inputs;
+    use crate::verification::{Guide, Truth, truth};
     use base::settings::Settings;
+    use engine::planner::{Build, Request, find};
+    use engine::space::World;
 
     const MAP: &str = "type octile\nheight 3\nwidth 4\nmap\n.@..\n.@..\n....\n";
     const SCENARIOS: &str = "version 1\n0\tm.map\t4\t3\t0\t0\t2\t0\t6\n0\tm.map\t4\t3\t0\t0\t1\t0\t1\n";
@@ -190,6 +193,45 @@ mod tests {
         let lattice = world.as_lattice().unwrap();
         assert_eq!(lattice.corner_rule(), base::grid::CornerRule::ForbidAny, "no corner is cut by default");
         assert_eq!(build(MAP, SCENARIOS, "every = 2").unwrap().queries().len(), 1);
+    }
+
+    #[test]
+    fn printed_lengths_are_those_of_shortest_paths_over_centres_and_over_corners() {
+        // From the upper left corner of the map past a wall of two cells to the corner right of it.
+        let around = [1.0 + 3.0 + std::f64::consts::SQRT_2, f64::sqrt(5.0) + 3.0];
+        let at_corners = "corner_rule = 'allow'\nvertices = 'corners'";
+        for (printed, extra, start, goal, expected) in [
+            ("6", "", [0.0, 2.0], [2.0, 2.0], [6.0, 6.0]),
+            ("5.41421356", at_corners, [0.0, 3.0], [2.0, 3.0], around),
+        ] {
+            let line = format!("0\tm.map\t0\t0\t2\t0\t{printed}\n");
+            let family = build(MAP, &line, extra).unwrap();
+            let query = &family.queries()[0];
+            assert_eq!(query.ends(), [&start[..], &goal[..]], "{extra}");
+            let world = family.prepare(1).unwrap().world;
+            let Value::Real(known) = family.known(0)["printed_optimal_cells"] else { panic!("{extra}") };
+            let [in_graph, shortest] = optima(&world, query);
+            assert!((in_graph - known).abs() < 1e-6, "{extra}: {in_graph}, printed {known}");
+            assert!(
+                (in_graph - expected[0]).abs() < 1e-9 && (shortest - expected[1]).abs() < 1e-9,
+                "{extra}"
+            );
+            let Build::Planner(astar) = find("astar").unwrap().build else { panic!("astar plans") };
+            let settings = toml::from_str("weight = 1\nties = 'fifo'").unwrap();
+            let planner = astar(&Settings::composed("a test", settings)).unwrap();
+            let [start, goal] = query.ends();
+            let request = Request { world: &world, start, goal, expansions: 100, seed: 0, trace: false };
+            let cost = planner.plan(&request).unwrap().cost.unwrap();
+            assert!((cost - known).abs() < 1e-6, "{extra}: {cost}, printed {known}");
+        }
+    }
+
+    /// The least cost in the graph and the length of the shortest path, as the verifier finds them.
+    fn optima(world: &World, query: &Query) -> [f64; 2] {
+        match truth(world, query, &Guide::default()) {
+            Truth::Corners(Some(least)) => [least.in_graph, least.shortest],
+            other => [other.optimal().unwrap(); 2],
+        }
     }
 
     #[test]

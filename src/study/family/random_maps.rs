@@ -160,8 +160,11 @@ pub(super) fn ends_on(
     let mut faults = Faults::default();
     let [start, goal] = [("start", start), ("goal", goal)].map(|(key, end)| {
         let outside = |x: &u32, y: &u32| {
-            let message =
-                format!("{key} is [{x}, {y}], outside the map; {all} are 0..{width} by 0..{height}");
+            let message = format!(
+                "{key} is [{x}, {y}], outside the map; {all} from [0, 0] to [{}, {}] are accepted",
+                width - 1,
+                height - 1
+            );
             settings.error_at(key, message)
         };
         faults.keep(match end {

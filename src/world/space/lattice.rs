@@ -129,7 +129,9 @@ impl LatticeWorld {
             let (width, height) = (self.grid.width(), self.grid.height());
             let [one, all] = if is_cell { ["a cell", "cells"] } else { ["a corner", "corners"] };
             format!(
-                "the {what} {point} is not {one} of the map; {all} are 0..{width} by 0..{height}",
+                "the {what} {point} is not {one} of the map; {all} from [0, 0] to [{}, {}] are accepted",
+                width - 1,
+                height - 1,
                 point = listed(point)
             )
         };

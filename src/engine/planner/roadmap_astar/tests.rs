@@ -238,7 +238,7 @@ fn only_a_search_by_length_for_itself_promises_a_shortest_path() {
 #[test]
 fn numbers_that_cannot_be_are_refused_by_name() {
     for (samples, neighbour_mm, more, expected) in [
-        ("0", "28.0", "", "`samples` is 0; a whole number from 1 to 4294967295 is accepted"),
+        ("0", "28.0", "", "`samples` is 0; a whole number of 1 or more is accepted"),
         ("40", "0.0", "", "`neighbour_mm` is 0.0; a number above 0 is accepted"),
         ("40", "-1.0", "", "`neighbour_mm` is -1.0; a number above 0 is accepted"),
         ("40", "nan", "", "`neighbour_mm` is nan; a finite number above 0 is accepted"),
@@ -250,7 +250,7 @@ fn numbers_that_cannot_be_are_refused_by_name() {
             "",
             "neighbour_mm is 1.5; is it in metres? millimetres are accepted (1.5 m is 1500 mm)",
         ),
-        ("40", "28.0", "nearest = 0", "`nearest` is 0; a whole number from 1 to 4294967295 is accepted"),
+        ("40", "28.0", "nearest = 0", "`nearest` is 0; a whole number of 1 or more is accepted"),
     ] {
         let text =
             format!("samples = {samples}\nneighbour_mm = {neighbour_mm}\ncost = 'hops'\n{NEVER}\n{more}");
