@@ -95,7 +95,7 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, (below, choices): (Be
     if !notes.is_empty() {
         text += &format!("\n{notes}");
     }
-    text + "\n" + &tallied(verdicts, which, Lines::Few)
+    text + "\n" + &tallied(Some(paper), verdicts, which, Lines::Few)
 }
 
 /// Whether the lines below claims speak of the choice `id`, whose id may be a plain word too.
