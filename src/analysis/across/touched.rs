@@ -37,7 +37,7 @@ impl<'p> Touched<'p> {
     fn by(paper: &'p Paper, settings: impl Iterator<Item = &'p Settings>) -> Self {
         let mut names = BTreeSet::new();
         let mut words = BTreeSet::new();
-        for (key, value) in settings.flat_map(|settings| settings.table()) {
+        for (key, value) in settings.flat_map(Settings::table) {
             gather(key, value, &mut names, &mut words);
         }
         let studies = paper.studies.iter().filter(|study| names.contains(study.name.as_str())).collect();
