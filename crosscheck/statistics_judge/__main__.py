@@ -41,12 +41,15 @@ def answer(asked: tuple[Path, Path, list[Metric], Path]) -> tuple[str, Compared]
 
 def report(name: str, compared: Compared) -> None:
     """Say what agrees, what is near and what differs."""
+    rows = compared.rows + compared.left_out.total()
     agree = (
         f"{compared.estimates} estimates, {compared.intervals} intervals, {compared.classes} outcomes "
         f"and {compared.across} combinations across interpretations agree; "
-        f"compared {compared.rows} of {compared.all_rows} rows of the defaults in estimates.parquet"
+        f"compared {compared.rows} of {rows} rows of the defaults in estimates.parquet"
     )
     print(f"{name}: {agree}; {len(compared.near)} near, {len(compared.differ)} differ", flush=True)
+    for why, count in sorted(compared.left_out.items()):
+        print(f"  not compared: {count} rows that {why}")
     for line in compared.near:
         print(f"  near: {line}")
     for line in compared.differ:

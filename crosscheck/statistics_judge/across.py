@@ -243,8 +243,20 @@ class Across:
             return Counted([], 0, 0, 0, none_compatible=False)
         most = self.paper.explore.get("refused_above_percent")
         refused = [most is not None and 100 * one.get("refused", 0) > most for one in stored["results"]]
+        stand = any(not one for one in refused)
+        with_more = {
+            one["results"]
+            for one, is_refused in zip(stored["results"], refused, strict=True)
+            if one["more"] is not None
+            and not (stand and is_refused)
+            and any(at in judged for at in one["interpretations"])
+        }
         for one, is_refused in zip(stored["results"], refused, strict=True):
             own = [at for at in one["interpretations"] if at in judged]
+            # Few instances that do not tell it from a result of more: no result of its own.
+            if one["more"] is None and one["results"] in with_more and 0 not in one["interpretations"]:
+                found.not_looked_at += len(own)
+                continue
             # Where all are refused, none can be set apart.
             if is_refused and not all(refused):
                 found.refused += own
@@ -469,7 +481,8 @@ class Across:
         for found in (self.alone(claim, choice, name) for name in voting):
             if found is None or found.get("sight") in UNSEEN:
                 return True
-            if found["results"] != base["results"] or stored_outcome(found) != stored_outcome(base):
+            both_have_more = None not in (found["more"], base["more"])
+            if found["results"] != base["results"] or (both_have_more and found["more"] != base["more"]):
                 return True
         return False
 
@@ -498,6 +511,8 @@ def differences(paper: Paper, verdicts: dict[str, Any]) -> Iterator[str | None]:
         expected = {**found[claim], **meant(paper.claim(claim), found)}
         where = f"{paper.id}: `{claim}`"
         stored = {"beside": [], "calibrated": [], **stored}
+        # Which printed values would be refused under an interpretation is not recomputed.
+        stored["beside"] = [line for line in stored["beside"] if not line.startswith("power under ")]
         keys = ("verdict", "beside", "depends_on", "calibrated")
         wrong = [key for key in keys if stored.get(key) != expected[key]]
         for key in wrong:

@@ -1,20 +1,22 @@
 """Holds the numbers of estimates.parquet under the default interpretation against what the stored trials give.
 
 An exploration keeps the first instances of each problem group and the first seeds of each contender. The default run
-has the same trials, so that its first instances give the same numbers. Not compared: parts of a number, what cases
-without an end might have given, the second seed, and studies that another study stands for.
+has the same trials, so that its first instances give the same numbers. What is not compared is counted by the reason:
+the clock, what cases without an end might have given, counts alone, and instances that are not stored.
 """
 
 import copy
+import itertools
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import pyarrow.parquet as pq
 
-from statistics_judge.found import Estimate
+from statistics_judge.found import Asked, Estimate
 from statistics_judge.intervals import Interval
-from statistics_judge.records import Paper
+from statistics_judge.parts import OF_STATISTIC, Part
+from statistics_judge.records import Paper, Reals
 
 # The criteria that ask for a statistic of all instances.
 ASKED_BY = {
@@ -39,9 +41,15 @@ def rows(paper: Paper) -> Iterator[dict[str, Any]]:
             yield row
 
 
-def is_whole(row: dict[str, Any]) -> bool:
-    """Whether a row is a whole number as measured, that does not rest on the clock."""
-    return not row["part"] and row["ends"] == "measured" and row["value"] is not None and not row["sessions"]
+def left_out(row: dict[str, Any]) -> str | None:
+    """Why a row is not compared; none if it is."""
+    if row["sessions"]:
+        return "rest on the clock"
+    if row["ends"] != "measured":
+        return "are of cases as if they had ended"
+    if row["value"] is None and not row["values"]:
+        return "have counts alone"
+    return None
 
 
 def criterion_of(claim: dict[str, Any], row: dict[str, Any]) -> str | None:
@@ -55,10 +63,12 @@ def explored(paper: Paper, *, has_more: bool) -> Paper:
     kept = {**paper.explore.get("instances", {})}
     kept |= paper.explore.get("more_instances", {}) if has_more else {}
     of_exploration = copy.copy(paper)
-    of_exploration.studies = {
+    studies = {
         name: study.first(kept.get(name), paper.explore.get("repeats", {}).get(name))
         for name, study in paper.studies.items()
     }
+    # A study is explored by the trials of the one that stands for it.
+    of_exploration.studies = studies | {other: studies[name] for name, other in paper.stands_for.items()}
     return of_exploration
 
 
@@ -78,25 +88,72 @@ def as_stored(criterion: str, own: Estimate) -> Estimate:
 
 
 def has_trials(paper: Paper, row: dict[str, Any]) -> bool:
-    """Whether the trials behind a row are stored: no other study stands for theirs, and as many instances are."""
+    """Whether the trials behind a row are stored: as many instances are."""
     kept = paper.explore.get("more_instances" if row["has_more_instances"] else "instances", {})
-    names = row["study"].split(", ")
-    stands = set(names) & {*paper.stands_for, *paper.stands_for.values()}
-    return not stands and all(paper.studies[name].has_instances(kept.get(name, 0)) for name in names)
+    stands_in = {other: name for name, other in paper.stands_for.items()}
+    names = [stands_in.get(name, name) for name in row["study"].split(", ")]
+    return all(paper.studies[name].has_instances(kept.get(name, 0)) for name in names)
 
 
-def compared(paper: Paper, finds: Finds) -> Iterator[tuple[str, dict[str, Any], Estimate | None] | None]:
-    """Each row with what the trials give and where it stands; none for a row that is not computed again."""
+@dataclass(frozen=True)
+class Row:
+    """A row of the table with what the trials give in its place, or why it is not compared."""
+
+    where: str
+    row: dict[str, Any]
+    own: Estimate | None = None
+    values: Reals | None = None
+    left_out: str | None = None
+
+
+def compared(paper: Paper, finds: Finds) -> Iterator[Row]:
+    """Each row with what the trials give."""
     papers = [explored(paper, has_more=has_more) for has_more in (False, True)]
-    for row in rows(paper):
-        of_row = papers[row["has_more_instances"]]
+    all_rows = itertools.groupby(rows(paper), lambda row: row["answer"])
+    for answer in (list(answer) for _, answer in all_rows):
+        first = answer[0]
+        of_row = papers[first["has_more_instances"]]
         # Claims that ask the same share a row.
-        claim = next((one for one in paper.claims if one["id"] in row["claim"].split(", ")), {})
-        name = criterion_of(claim, row)
-        if name is None or not is_whole(row) or not has_trials(paper, row):
-            yield None
+        claim = next((one for one in paper.claims if one["id"] in first["claim"].split(", ")), {})
+        more = ", with more instances" if first["has_more_instances"] else ""
+        where = (
+            f"{paper.id}: estimates.parquet, `{claim.get('id', first['claim'])}` ({first['statistic']}{more})"
+        )
+        reasons = [left_out(row) for row in answer]
+        if not has_trials(paper, first):
+            reasons = ["rest on instances that are not stored"] * len(answer)
+        kept = [row for row, reason in zip(answer, reasons, strict=True) if reason is None]
+        yield from (Row(where, row, left_out=why) for row, why in zip(answer, reasons, strict=True) if why)
+        if not kept:
             continue
-        more = ", with more instances" if row["has_more_instances"] else ""
-        where = f"{paper.id}: estimates.parquet, `{claim['id']}` ({name}{more})"
-        found = finds(of_row, claim, name)
-        yield where, row, found and as_stored(name, found)
+        name, parts_of = OF_STATISTIC.get(first["statistic"], ("", None))
+        settings = claim.get("check", {}).get(name)
+        whole = criterion_of(claim, first)
+        if parts_of is not None and settings is not None:
+            asked = Asked(of_row, claim, settings, 1, f"{paper.id} {where}")
+            yield from of_parts(where, kept, parts_of(asked))
+            continue
+        for row in kept:
+            if whole is None or row["part"]:
+                yield Row(where, row, left_out=f"are of `{row['statistic']}`{' by part' * bool(row['part'])}")
+                continue
+            found = finds(of_row, claim, whole)
+            yield Row(where, row, found and as_stored(whole, found))
+
+
+def of_parts(where: str, stored: list[dict[str, Any]], own: list[Part]) -> Iterator[Row]:
+    """The rows of parts beside ours, both in the order of their names and numbers."""
+    stored = sorted(stored, key=lambda row: (row["part"], row["value"] or 0.0, row["outside"]))
+    own = sorted(own, key=lambda part: (part.name, part.estimate.value if part.estimate else 0.0))
+    for row, part in itertools.zip_longest(stored, own):
+        if row is None:
+            row = {**dict.fromkeys(stored[0]), "part": part.name, "values": []}
+        at = f"{where}, {row['part']}" if row["part"] else where
+        if part is None or part.name != row["part"]:
+            yield Row(at, row)
+            continue
+        found = part.estimate
+        if found is not None and not row["n"]:
+            # Medians of sets are stored without their trials.
+            found = replace(found, n=0)
+        yield Row(at, row, found, part.values)

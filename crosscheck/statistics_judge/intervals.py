@@ -232,7 +232,9 @@ def share_below(unit: Places, values: Reals, share: float) -> Callable[[Weights]
         part = place - np.floor(place)
         # Infinity times nothing is no number.
         known = np.where(part > 0, high, low)
-        return np.where(total > 0, np.where(low == known, low, low * (1 - part) + known * part), np.nan)
+        with np.errstate(invalid="ignore"):
+            between = low * (1 - part) + known * part
+        return np.where(total > 0, np.where(low == known, low, between), np.nan)
 
     return statistic
 

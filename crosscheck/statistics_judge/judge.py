@@ -1,14 +1,17 @@
 """Judges a paper's claims anew, and holds what verdicts.toml says against that."""
 
 import itertools
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+import numpy as np
+
 from statistics_judge import across, classes, estimates, means, medians, printed_cells, shares, sizes
 from statistics_judge.found import FEWEST_INSTANCES, Asked, Estimate, Found
-from statistics_judge.records import Paper, Study
-from statistics_judge.selection import labels, select
+from statistics_judge.records import Paper, Reals, Study
+from statistics_judge.selection import groups_of, is_drawn, labels, select
 
 CRITERIA: dict[str, Callable[[Asked], Found]] = {
     "equals": shares.equals,
@@ -39,6 +42,8 @@ class Recomputed:
     criterion: str
     classes: Classes
     estimate: Estimate | None = None
+    # Whether nothing is drawn, as far as groups, instances and seeds show.
+    is_undrawn: bool = False
 
 
 @dataclass
@@ -61,9 +66,9 @@ class Compared:
     intervals: int = 0
     classes: int = 0
     across: int = 0
-    # Rows of the defaults in estimates.parquet: those computed again, and all.
+    # Rows of the defaults in estimates.parquet: those computed again, and the others by the reason.
     rows: int = 0
-    all_rows: int = 0
+    left_out: Counter[str] = field(default_factory=Counter)
     near: list[str] = field(default_factory=list)
     differ: list[str] = field(default_factory=list)
 
@@ -79,11 +84,13 @@ def of_claim(paper: Paper, claim: dict[str, Any]) -> Claim:
     names = sorted(claim.get("rule", {}))
     findings += [None] * len(names)
     for name, settings in sorted(claim.get("check", {}).items()):
-        findings.append(of_criterion(paper, claim, name, settings, decides=True))
+        found = of_criterion(paper, claim, name, settings, decides=True)
+        findings.append(replace(found, is_undrawn=is_undrawn(paper, settings)))
         names.append(name)
     for name, tables in sorted(claim.get("shows", {}).items()):
         for settings in tables:
-            findings.append(of_criterion(paper, claim, name, settings, decides=False))
+            found = of_criterion(paper, claim, name, settings, decides=False)
+            findings.append(replace(found, is_undrawn=is_undrawn(paper, settings)))
             names.append(name)
     parts = next(((kind, claim[kind]) for kind in classes.PARTS if claim.get(kind)), None)
     if parts and parts[0] == "cells" and names:
@@ -203,6 +210,31 @@ def studies_of(settings: dict[str, Any]) -> list[str]:
     return [place["study"] for place in settings["in"]]
 
 
+def is_undrawn(paper: Paper, settings: dict[str, Any]) -> bool:
+    """Whether a criterion looks at single instances of problems that are not drawn, and at single seeds."""
+    places = [settings["select"]] if "select" in settings else settings["in"]
+    known = [paper.studies[place["study"]] for place in places]
+    groups = [
+        (study, group)
+        for study, place in zip(known, places, strict=True)
+        for group in groups_of(study, place.get("problems", []))
+    ]
+    if any(is_drawn(study, group) for study, group in groups):
+        return False
+    every = {one["label"] for study in known for one in study.spec["contender"]}
+    named = set(texts(settings)) & every or every
+    of_groups = [(study, study.rows(group, label)) for study, group in groups for label in named]
+    return not any(study.instance[rows].any() or study.repeat[rows].any() for study, rows in of_groups)
+
+
+def texts(value: Any) -> Iterator[str]:  # noqa: ANN401
+    """Every text in some settings."""
+    if isinstance(value, str):
+        yield value
+    for one in value.values() if isinstance(value, dict) else value if isinstance(value, list) else []:
+        yield from texts(one)
+
+
 def reads_clock(paper: Paper, settings: dict[str, Any]) -> bool:
     """Whether a criterion rests on our own clock."""
     name = settings.get("metric") or settings.get("select", {}).get("metric")
@@ -263,16 +295,28 @@ def compare_rows(paper: Paper, claims: list[Claim], compared: Compared) -> None:
         return of_criterion(of, claim, name, claim["check"][name], decides=False).estimate
 
     for found in estimates.compared(paper, finds):
-        compared.all_rows += 1
-        if found is None:
+        row, own = found.row, found.own
+        if found.left_out is not None:
+            compared.left_out[found.left_out] += 1
             continue
-        where, row, own = found
         compared.rows += 1
-        interval = None if row["low"] is None else [row["low"], row["high"]]
-        stored = {"value": row["value"], "n": row["n"], "interval": interval}
-        if own is not None and own.solved is not None:
-            stored["solved"] = [row["solved"], row["total"]]
-        compared.differ += [f"{where}: {line}" for line in differences(own, stored, Compared())]
+        if found.values is not None:
+            lines = list_differences(found.values, row["values"])
+        else:
+            interval = None if row["low"] is None else [row["low"], row["high"]]
+            stored = {"value": row["value"], "n": row["n"], "interval": interval}
+            if own is not None and own.solved is not None:
+                stored["solved"] = [row["solved"], row["total"]]
+            lines = differences(own, None if row["value"] is None else stored, Compared())
+        compared.differ += [f"{found.where}: {line}" for line in lines]
+
+
+def list_differences(own: Reals, stored: list[float]) -> Iterator[str]:
+    """What differs between the numbers of all instances."""
+    if len(own) != len(stored):
+        yield f"it has {len(stored)} instances; recomputed there are {len(own)}"
+    elif not np.allclose(np.sort(own), np.sort(stored), rtol=1e-9, atol=1e-12):
+        yield "its value is another on some instance"
 
 
 def whole(claim: Claim, possible: list[Classes]) -> Classes:
@@ -303,7 +347,7 @@ def compare_findings(paper: str, claim: Claim, stored: dict[str, Any], compared:
             continue
         where = f"{paper}: `{claim.id}`, finding {place + 1} ({own.criterion})"
         estimate = own.estimate
-        if estimate and stored.get("is_seedless") and finding.get("outcome"):
+        if estimate and own.is_undrawn and "interval" not in (finding.get("ours") or {}):
             # Nothing is drawn, so that no other instance could be.
             estimate = replace(estimate, interval=None)
         for line in differences(estimate, finding.get("ours"), compared):

@@ -107,6 +107,7 @@ def hangs_on_unended(asked: Asked, cases: Cases, values: Reals, outcome: str) ->
 class Cell:
     """A printed mean that shares its instances with others."""
 
+    name: str
     value: float
     rounded: tuple[float, float]
     instances: int
@@ -114,8 +115,8 @@ class Cell:
     cases: Cases
 
 
-def table_means(asked: Asked) -> Found:
-    """The printed means of a table, taken together, could be those of so many instances like ours."""
+def rows_of(asked: Asked) -> dict[tuple[str, str, int], list[Cell]]:
+    """The cells of a table by row: those that share a study, problems and a number of instances."""
     rows: dict[tuple[str, str, int], list[Cell]] = {}
     for place in asked.settings["in"]:
         for name in place["claims"]:
@@ -125,8 +126,14 @@ def table_means(asked: Asked) -> Found:
             own = Asked(asked.paper, claim, claim["check"]["mean_of"], asked.session, asked.seed)
             cases, count = own.cases(), own.settings["instances"]
             units = dict(zip(*(one.tolist() for one in of_units(cases)), strict=True))
-            cell = Cell(printed(asked.paper, claim).value, rounded(own, claim), count, units, cases)
+            cell = Cell(name, printed(asked.paper, claim).value, rounded(own, claim), count, units, cases)
             rows.setdefault((place["study"], str(own.settings["select"]["problems"]), count), []).append(cell)
+    return rows
+
+
+def table_means(asked: Asked) -> Found:
+    """The printed means of a table, taken together, could be those of so many instances like ours."""
+    rows = rows_of(asked)
     cells = [cell for row in rows.values() for cell in row]
     probabilities = [of_row(row) for row in rows.values()]
     is_cut = any(bool(cell.cases.unended.any()) for cell in cells)
@@ -143,15 +150,20 @@ def table_means(asked: Asked) -> Found:
     return replace(found, censored=frozenset([is_cut]), powerless=is_powerless(asked, list(rows.values())))
 
 
+def shared_units(row: list[Cell]) -> Reals:
+    """The numbers of the units that have all cells of a row, a line each."""
+    whole = sorted(set.intersection(*(set(cell.units) for cell in row)))
+    return np.array([[cell.units[unit] for cell in row] for unit in whole]).reshape(len(whole), len(row))
+
+
 def row_test(row: list[Cell]) -> tuple[Reals, Reals, list[Cell], list[Cell]] | None:
     """Our numbers in each cell that moves, by unit, their covariance with rounding, those cells, and the others.
 
     None of too few units.
     """
-    whole = sorted(set.intersection(*(set(cell.units) for cell in row)))
-    if not whole:
+    drawn = shared_units(row)
+    if not len(drawn):
         return None
-    drawn = np.array([[cell.units[unit] for cell in row] for unit in whole])
     moves = (drawn != drawn[0]).any(axis=0)
     moving = [cell for cell, is_moving in zip(row, moves, strict=True) if is_moving]
     exact = [cell for cell, is_moving in zip(row, moves, strict=True) if not is_moving]

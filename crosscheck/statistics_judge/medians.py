@@ -1,7 +1,7 @@
 """Criteria that look for the least and for one that meets: exists and least_of."""
 
 import itertools
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -83,13 +83,25 @@ def compare(
     asked: Asked, groups: list[str], pairs: list[tuple[str, str]], given: tuple[float, float]
 ) -> list[Estimate]:
     """Every comparison that was measured, trials without an end being given this on either side."""
-    found = []
+    return [found for *_, found in compared_on(asked, groups, pairs, given)]
+
+
+def compared_on(
+    asked: Asked, groups: list[str], pairs: list[tuple[str, str]], given: tuple[float, float]
+) -> Iterator[tuple[str, str, str, Estimate]]:
+    """The same, each with its problem and both contenders."""
     for group in groups:
         for one, other in pairs:
             low, high = side(asked, group, one, given[0]), side(asked, group, other, given[1])
             if low is not None and high is not None:
-                found.append(ratio(low, high))
-    return found
+                yield group, one, other, ratio(low, high)
+
+
+def compared_pairs(asked: Asked, given: tuple[float, float]) -> Iterator[tuple[str, str, str, Estimate]]:
+    """Every comparison that was measured, on all problems."""
+    settings, of = asked.settings, asked.settings["select"]
+    pairs = list(itertools.product(labels(settings["lower"]), labels(settings["higher"])))
+    return compared_on(asked, groups_of(asked.paper.studies[of["study"]], of["problems"]), pairs, given)
 
 
 def unended(asked: Asked, group: str, contender: str) -> bool:
@@ -173,20 +185,26 @@ def exists(asked: Asked) -> Found:
     if asked.settings.get("differ"):
         return differs(asked)
     cell = printed(asked.paper, asked.claim)
-    values, problems, selected = seen(asked, asked.settings)
-    eligible = ~selected
-    for name in asked.settings.get("given", []):
-        claim = asked.paper.claim(name)
-        other, meets = seen(asked, claim["check"]["exists"]), printed(asked.paper, claim)
-        there = {problem for value, problem in zip(other[0], other[1], strict=True) if meets.agrees(value)}
-        eligible &= np.array([problem in there for problem in problems], dtype=bool)
-    values = values[eligible]
+    values, selected = eligible(asked, asked.settings["contenders"])
+    values = values[~selected]
     met = [value for value in values if cell.agrees(value)]
     outcome = HOLDS if met else OPEN
     if len(values) == 0:
         return certain(outcome, existential=True)
     shown = met[0] if met else values[np.argmin(np.abs(values - cell.value))]
     return certain(outcome, Estimate(float(shown), len(values)), existential=True)
+
+
+def eligible(asked: Asked, contenders: str | list[str]) -> tuple[Reals, np.ndarray]:
+    """The numbers of these contenders where all given claims are met, and whether their map was searched for."""
+    values, problems, selected = seen(asked, {**asked.settings, "contenders": contenders})
+    kept = np.ones(len(values), dtype=bool)
+    for name in asked.settings.get("given", []):
+        claim = asked.paper.claim(name)
+        other, meets = seen(asked, claim["check"]["exists"]), printed(asked.paper, claim)
+        there = {problem for value, problem in zip(other[0], other[1], strict=True) if meets.agrees(value)}
+        kept &= np.array([problem in there for problem in problems], dtype=bool)
+    return values[kept], selected[kept]
 
 
 def seen(asked: Asked, settings: dict[str, Any]) -> tuple[Reals, list[tuple], np.ndarray]:
@@ -237,24 +255,32 @@ def saved(base: Reals, own: Reals) -> Reals:
     return np.divide(100 * (base - own), base, out=np.full(len(base), np.nan), where=base > 0)
 
 
+def medians_of_sets(asked: Asked) -> Iterator[tuple[str, float | None]]:
+    """The median on each problem of each set; none without trials."""
+    settings = asked.settings
+    study, metric = asked.paper.studies[settings["in"][0]["study"]], asked.paper.metric(settings["metric"])
+    measured, cut = study.values(metric, asked.session), np.isin(study.status, CUT)
+    for group in (group for groups in settings["differ"] for group in groups):
+        rows = posed(study, group, labels(settings["contenders"])[0], {})
+        # Failures are infinite; what did not end is left out, and so are trials that were not timed.
+        rows = rows[~cut[rows] & ~(metric.clock & np.isnan(measured[rows]))]
+        given = metric.given(study.status[rows]) & ~np.isnan(measured[rows])
+        yield group, middle(np.where(given, measured[rows], np.inf)) if len(rows) else None
+
+
 def differs(asked: Asked) -> Found:
     """A metric is not the same on all problems of each set."""
     settings = asked.settings
-    study, metric = asked.paper.studies[settings["in"][0]["study"]], asked.paper.metric(settings["metric"])
-    contender = labels(settings["contenders"])[0]
-    measured, cut = study.values(metric, asked.session), np.isin(study.status, CUT)
-    differ, is_cut = 0, False
-    for groups in settings["differ"]:
-        rows = [posed(study, group, contender, {}) for group in groups]
-        is_cut |= any(cut[of].any() for of in rows)
-        # Failures are infinite; what did not end is left out, and so are trials that were not timed.
-        ended = [of[~cut[of] & ~(metric.clock & np.isnan(measured[of]))] for of in rows]
-        found = [
-            np.where(metric.given(study.status[of]) & ~np.isnan(measured[of]), measured[of], np.inf)
-            for of in ended
-        ]
-        if all(len(of) for of in found):
-            medians = [middle(of) for of in found]
-            differ += any(of != medians[0] and abs(of - medians[0]) > 1e-9 for of in medians)
+    study, contender = asked.paper.studies[settings["in"][0]["study"]], labels(settings["contenders"])[0]
+    cut = np.isin(study.status, CUT)
+    groups = [group for of in settings["differ"] for group in of]
+    is_cut = any(cut[posed(study, group, contender, {})].any() for group in groups)
+    known = dict(medians_of_sets(asked))
+    differ = 0
+    for of in settings["differ"]:
+        medians = [known[group] for group in of]
+        first = medians[0]
+        if first is not None and None not in medians:
+            differ += any(one is not None and one != first and abs(one - first) > 1e-9 for one in medians)
     outcome = {0: FAILS, len(settings["differ"]): HOLDS}.get(differ, SIGN)
     return replace(certain(outcome, existential=True), censored=frozenset([is_cut]))

@@ -177,20 +177,25 @@ def along_sweep(asked: Asked, cases: Cases, is_higher: bool) -> Found:
     if len(drawn) < 2:
         return too_few()
 
-    def of_band(drawn: Reals) -> tuple[list[Interval], list[str]]:
-        intervals = band(drawn, asked.seed, (-100, 100))
+    def directions_of(intervals: list[Interval]) -> list[str]:
         # As it is, as wide, and as narrow, as the band can be.
         ways = (("at", "at"), ("least", "most"), ("most", "least"))
-        return intervals, [all_along(intervals, is_higher, *ends) for ends in ways]
+        return [all_along(intervals, is_higher, *ends) for ends in ways]
 
-    intervals, directions = of_band(drawn)
+    intervals = of_band(asked, drawn)
+    directions = directions_of(intervals)
     ways = (True, False) if cases.unended.any() else ()
-    ends = [frozenset(of_band(curves(cases, other=way, own=not way))[1]) for way in ways]
+    ends = [frozenset(directions_of(of_band(asked, curves(cases, other=way, own=not way)))) for way in ways]
     mean = drawn.mean(axis=0)
     place = int(np.argmin(mean if is_higher else -mean))
     estimate = Estimate(float(mean[place]), len(drawn), intervals[place], cases.solved_of_all())
     possible = frozenset(directions)
     return Found(directions[0], possible, estimate, censored=hangs(directions[0], possible, ends))
+
+
+def of_band(asked: Asked, drawn: Reals) -> list[Interval]:
+    """The simultaneous band of curves, a line an instance."""
+    return band(drawn, asked.seed, (-100, 100))
 
 
 def curves(cases: Cases, *, other: bool, own: bool) -> Reals:

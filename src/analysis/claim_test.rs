@@ -1,6 +1,7 @@
 //! The tests of a claim under an interpretation: its criteria and rules, built; their numbers, and the outcome of
 //! these.
 
+use super::across::touched::Touched;
 use super::censored::refused_share;
 use super::context::Context;
 use super::criterion::{self, Criterion, Entry, table_means};
@@ -162,6 +163,10 @@ impl<'a> ClaimTest<'a> {
             }
             if paper.source.ours { agreement } else { Sessions::OfAnother }
         });
+        // Where nothing is drawn, no other instance could be: the number has no interval.
+        if evidence.is_some() && Touched::by_test(paper, self.context.settings).draws_nothing(paper) {
+            found.ours = found.ours.map(|ours| Estimate { interval: None, ..ours });
+        }
         let studies = criterion.studies();
         let not_run = paper.not_run(claim, &studies);
         let caps = Caps {
@@ -216,10 +221,13 @@ fn finding(criterion: &str, found: CriterionResult, caps: Caps, not_run: &[Strin
     }
     let is_met = matches!(outcome, Some(Outcome::Holds | Outcome::Fitted | Outcome::Attainable));
     because.extend(found.power.filter(|_| is_met));
+    let has_interval = found.ours.as_ref().is_some_and(|ours| ours.interval.is_some());
+    let about_interval = if has_interval { found.about_interval } else { String::new() };
+    let ours = found.ours.map(|ours| Estimate { what: ours.what.clone() + &about_interval, ..ours });
     CriterionFinding {
         criterion: criterion.to_owned(),
         outcome,
-        ours: found.ours,
+        ours,
         trial: found.trial,
         settles,
         because,

@@ -9,8 +9,10 @@ use stats::interval::Interval;
 pub struct CriterionResult {
     /// What it amounts to; none if it is only shown, or can only refuse and does not.
     pub outcome: Option<Outcome>,
-    /// Our number.
+    /// Our number, without words about its interval.
     pub ours: Option<Estimate>,
+    /// These words, as they follow the others.
+    pub about_interval: String,
     /// The trial that shows it, as `--trial` takes it.
     pub trial: Option<String>,
     /// The computation, step by step.

@@ -9,7 +9,7 @@ use super::number::{Ends, Number, Numbers};
 use super::verdict::Together;
 use base::hash::sha256;
 use base::settings::SettingsError;
-use polars::prelude::{ChunkedArray, Column, DataFrame, NamedFrom as _, PolarsResult, Series};
+use polars::prelude::{ChunkedArray, Column, DataFrame, NamedFrom as _, PolarsError, PolarsResult, Series};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use stats::interval::Interval;
@@ -502,9 +502,13 @@ fn answers(frame: &DataFrame) -> PolarsResult<[Vec<Answer>; 2]> {
             answer.numbers.by_session.clear();
             own.push(answer);
         }
-        let Some(last) = own.last_mut() else { continue };
-        last.numbers.by_session.resize_with(session.max(last.numbers.by_session.len()), Vec::new);
-        last.numbers.by_session[session - 1].push(number);
+        let sessions =
+            &mut own.last_mut().expect("a row of another answer is pushed first").numbers.by_session;
+        let session = session.checked_sub(1).ok_or_else(|| {
+            PolarsError::OutOfBounds("a number names session 0; sessions count from 1".into())
+        })?;
+        sessions.resize_with(sessions.len().max(session + 1), Vec::new);
+        sessions[session].push(number);
     }
     Ok(found)
 }
@@ -566,6 +570,19 @@ mod tests {
         assert_eq!(first.places()[&("q", false, 2)], 0);
         assert!(Estimates::from_bytes(stored.bytes()).unwrap() == stored);
         assert!(stored.bytes() == stored.bytes(), "the same estimates give other bytes");
+    }
+
+    #[test]
+    fn a_place_or_a_session_that_does_not_exist_is_refused() {
+        let read = |stored: &Estimates| Estimates::from_bytes(stored.bytes()).unwrap_err();
+        let mut beyond = stored();
+        beyond.first.as_mut().unwrap().answers[0].places.push(3);
+        assert_eq!(read(&beyond), "a number names an interpretation that is not listed");
+        let mut columns = frame(&stored());
+        let sessions = Series::new("session".into(), vec![0_u64; columns.height()]);
+        columns.with_column(sessions.into()).unwrap();
+        let refused = answers(&columns).unwrap_err().to_string();
+        assert!(refused.contains("session 0"), "{refused}");
     }
 
     #[test]

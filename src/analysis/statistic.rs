@@ -37,6 +37,9 @@ pub fn how(is_agreed: bool) -> &'static str {
 /// What the interval of instances that all agree is.
 const AGREED: &str = "all instances agree: what allows for others";
 
+/// The words about the interval of a share, after those of the share.
+pub const SHARE_INTERVAL: &str = ", 95 %";
+
 /// The words for intervals where all instances may agree.
 pub const INTERVALS: &str = "bootstrap, or where all instances agree what allows for others";
 
@@ -241,15 +244,12 @@ impl OverallStatistic {
     /// The statistic of pairs by instance, the other contender's number first. Instances that all have the same ratio
     /// leave an interval with width.
     pub fn of_pairs(self, pairs: &[Vec<(f64, f64)>]) -> Option<Estimate> {
-        let sums = |pairs: &Vec<(f64, f64)>| {
-            pairs.iter().fold([0.0, 0.0], |[own, base], pair| [own + pair.1, base + pair.0])
-        };
         // In a mean of ratios every instance weighs the same.
         let weighed = |[own, base]: [f64; 2]| match self {
             Self::MeanOfRatios => (base > 0.0).then(|| [own / base, 1.0]),
             _ => Some([own, base]),
         };
-        let weighed: Vec<[f64; 2]> = pairs.iter().map(sums).filter_map(weighed).collect();
+        let weighed: Vec<[f64; 2]> = pairs.iter().map(|pairs| sums(pairs)).filter_map(weighed).collect();
         let ratio = pooled::ratio_of_pairs(&weighed, PLAN)?;
         if self != Self::ReductionPercent {
             return Some(ratio);
@@ -258,6 +258,17 @@ impl OverallStatistic {
         let interval = Interval::new(percent(ratio.interval.high), percent(ratio.interval.low));
         Some(Estimate { value: percent(ratio.value), interval, ..ratio })
     }
+}
+
+/// The sums of pairs, that of the other contender last.
+fn sums(pairs: &[(f64, f64)]) -> [f64; 2] {
+    pairs.iter().fold([0.0, 0.0], |[own, base], pair| [own + pair.1, base + pair.0])
+}
+
+/// The [ratio](OverallStatistic::Ratio) of pairs without an interval, the other contender's number first; none if its sum is not above 0.
+pub fn ratio(pairs: &[(f64, f64)]) -> Option<f64> {
+    let [own, base] = sums(pairs);
+    (base > 0.0).then(|| own / base)
 }
 
 /// The interval of a reduction as that of a change, its sign turned.
@@ -346,13 +357,9 @@ impl Share {
 
     /// It as our number beside a printed one: the share of `what`.
     pub fn estimate(&self, what: &str) -> VerdictEstimate {
-        let ours = match self.interval {
-            Some(interval) => {
-                VerdictEstimate::new(self.value, interval, format!("share of {what}, 95 %"), self.instances)
-            }
-            None => VerdictEstimate::bare(self.value, format!("share of {what}"), self.instances),
-        };
-        ours.measures(Quantity::Share, what)
+        let bare = VerdictEstimate::bare(self.value, format!("share of {what}"), self.instances);
+        let interval = self.interval.map(|interval| [interval.low, interval.high]);
+        VerdictEstimate { interval, ..bare }.measures(Quantity::Share, what)
     }
 }
 

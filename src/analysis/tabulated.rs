@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::evidence::{Evidence, Run};
 use super::metric::{self, Metric};
-use super::selection::Selection;
+use super::selection::{Selection, cases};
 use super::selection_spec::SelectionSpec;
 use super::statistic;
 use base::settings::{Settings, SettingsError};
@@ -102,13 +102,10 @@ fn cell_of(run: &Run<'_>, group: &str, label: &str, cell: &CellSpec, metric: &Me
             .map(|medians| medians.join(" · ")),
         Show::Percent => statistic::mean(&finite).map(|share| number(100.0 * share)),
         Show::Ratio => cell.against.as_ref().and_then(|base| {
-            let pairs = run.pairs(group, base.get_ref(), label);
-            let values: Vec<[f64; 2]> = pairs
-                .iter()
-                .filter_map(|pair| Some([run.value(pair.other, metric)?, run.value(pair.base, metric)?]))
-                .collect();
-            let [own, base] = [0, 1].map(|side| values.iter().map(|pair| pair[side]).sum::<f64>());
-            (base > 0.0).then(|| number(100.0 * own / base))
+            let pairs = run.pairs(group, base.get_ref(), label).into_iter();
+            let values =
+                pairs.filter_map(|pair| run.value(pair.base, metric).zip(run.value(pair.other, metric)));
+            statistic::ratio(&values.collect::<Vec<_>>()).map(|ratio| number(100.0 * ratio))
         }),
         Show::Solved => ended(Status::Solved),
         Show::Refused => ended(Status::Rejected),
@@ -225,20 +222,9 @@ pub fn beside(evidence: &Evidence<'_>, id: &str, beside: &Settings) -> Result<Op
     let claim = evidence.paper.claim(id).ok_or_else(|| format!("the claim `{id}`"))?;
     let selection =
         selected(evidence.paper, (claim, &evidence.point), beside).map_err(SettingsError::message)?;
-    let run = selection.run(evidence).ok_or_else(|| format!("a run of `{}`", selection.study.name))?;
-    let value = |contender: &String| {
-        let row = selection
-            .groups
-            .iter()
-            .find_map(|group| selection.rows(run, group, contender).into_iter().next());
-        let row = row.ok_or_else(|| {
-            format!("`{contender}` on `{}` of `{}`", selection.groups.join("`, `"), selection.study.name)
-        })?;
-        Ok::<_, String>(selection.metric.and_then(|metric| run.value(row, metric)))
-    };
-    let own = value(&selection.contenders[0])?;
-    let Some(base) = &selection.against else { return Ok(own) };
-    Ok(own.zip(value(base)?).map(|(own, base)| 100.0 * (base - own) / base))
+    let instances = selection.instances(evidence);
+    let first = cases(&instances).next().ok_or_else(|| format!("trials of {}", selection.description()))?;
+    Ok(if selection.against.is_some() { first.saving_percent() } else { first.value })
 }
 
 #[cfg(test)]

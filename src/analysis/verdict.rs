@@ -84,13 +84,6 @@ impl Estimate {
         Self { value, interval: None, what: what.into(), quantity, subject, n, solved: None }
     }
 
-    /// The estimate without its interval and the words about the interval.
-    #[must_use]
-    pub fn without_interval(self) -> Self {
-        let words: Vec<&str> = self.what.split(", ").filter(|words| !words.contains("95 %")).collect();
-        Self { interval: None, what: words.join(", "), ..self }
-    }
-
     /// The estimate, as a number of this kind of `subject`.
     #[must_use]
     pub fn measures(self, quantity: Quantity, subject: impl Into<String>) -> Self {
@@ -124,6 +117,13 @@ pub struct CriterionFinding {
     /// What the computation takes for granted.
     #[serde(default)]
     pub premises: Vec<String>,
+}
+
+impl CriterionFinding {
+    /// Which printed values would have been refused, in words.
+    pub fn power(&self) -> Option<&str> {
+        self.because.iter().find_map(|line| line.strip_prefix("power: "))
+    }
 }
 
 /// What an interpretation does to a claim when it alone departs from its default, the least first.
@@ -368,8 +368,7 @@ impl ClaimVerdict {
 
     /// Which printed values would have been refused, in words.
     pub fn power(&self) -> Option<&str> {
-        let mut because = self.findings.iter().flat_map(|finding| &finding.because);
-        because.find_map(|line| line.strip_prefix(POWER))
+        self.findings.iter().find_map(CriterionFinding::power)
     }
 
     /// What its probability was multiplied for, the number of interpretations that the paper may mean, and what it is then.

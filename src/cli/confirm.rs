@@ -74,7 +74,7 @@ pub fn confirm(
     let interpretations = second.interpretations.len();
     let stored = Estimates::read(&paper, &places.runs)?;
     Estimates { second: Some(second), ..stored }.write(&places.runs)?;
-    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?, which);
+    verdicts::print(Some(&paper), &judge::judge(&paper, default_point(&paper), &places)?, which);
     say!(
         "{} on the second seed, {} besides the default; what was found is in {}",
         counted(trials as usize, ["trial", "trials"]),

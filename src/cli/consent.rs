@@ -119,7 +119,7 @@ fn is_of_repository(folder: &Path) -> bool {
 }
 
 /// What a study says of planners from outside: in contenders, in options of choices and in sweeps.
-fn programs(study: &Study) -> Vec<Table> {
+pub(super) fn programs(study: &Study) -> Vec<Table> {
     // Trials that were imported start nothing.
     let is_started =
         |entry: &&Entry| planner::is_recorded(entry) && entry.name != planner::recorded::ENTRY.name;

@@ -145,7 +145,7 @@ pub fn explore(
     // What is damaged is made again, and what was found on the second seed is gone with it.
     let stored = Estimates::read(&paper, &places.runs).unwrap_or_else(|_| Estimates::none(&paper));
     Estimates { first: Some(explored), ..stored }.write(&places.runs)?;
-    verdicts::print(&judge::judge(&paper, default_point(&paper), &places)?, which);
+    verdicts::print(Some(&paper), &judge::judge(&paper, default_point(&paper), &places)?, which);
     say!(
         "{} under {}; what was found is in {}",
         counted(trials as usize, ["trial", "trials"]),

@@ -1,5 +1,6 @@
 //! How a paper's interpretations are explored: the trials of each round, and the claims judged after it.
 
+use super::consent::programs;
 use super::judge;
 use super::places::Places;
 use super::progress::{Bar, doing, safe_point, stop_flag};
@@ -141,7 +142,8 @@ impl<'p> Explorer<'p> {
             let seen = study.as_trials_see(points);
             let some: Vec<Interpretation> =
                 seen.iter().step_by(seen.len().div_ceil(TIMED)).cloned().collect();
-            let seconds = BuiltStudy::new(&study, &some, &self.places.inputs)?.seconds_a_trial();
+            let seconds = BuiltStudy::new(&study, &some, &self.places.inputs)?
+                .seconds_a_trial(!programs(&study).is_empty());
             found.extend(seconds.map(|seconds| (study.name.clone(), seconds)));
         }
         Ok(found)
@@ -305,6 +307,7 @@ impl<'p> Explorer<'p> {
         let mut near = near_a_flip(self.paper, verdicts, &self.weighed(first)?);
         // What parts from the defaults with more instances is seen only beside them.
         near.extend((!near.is_empty()).then_some(0));
+        let near = self.alike(points, &near);
         let each = self.trials_each(most_instances, |_| true)?;
         let (places, again) = within(budget.trials, &mut trials, &each, points, near);
         if again.is_empty() {
@@ -312,6 +315,17 @@ impl<'p> Explorer<'p> {
         }
         let (found, _) = self.look(&again, Round::Again)?;
         Ok((places.into_iter().zip(found).collect(), trials))
+    }
+
+    /// The places of `points` under which studies run the trials that they run under those at `places`.
+    fn alike(&self, points: &[Interpretation], places: &BTreeSet<usize>) -> BTreeSet<usize> {
+        let studies = self.studies(most_instances);
+        let trials = |place: &usize| -> Vec<String> {
+            let seen = studies.iter().map(|ran| points[*place].for_trials(&ran.study.choices));
+            seen.map(|point| point.name().to_owned()).collect()
+        };
+        let known: BTreeSet<Vec<String>> = places.iter().map(trials).collect();
+        (0..points.len()).filter(|place| known.contains(&trials(place))).collect()
     }
 
     /// What was measured under `points`, all in this order.

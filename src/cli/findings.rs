@@ -70,7 +70,7 @@ fn text(paper: &Paper, verdicts: &Verdicts, which: &Which, below: Below) -> Stri
     if !notes.is_empty() {
         text += &format!("\n{notes}");
     }
-    text + "\n" + &tallied(verdicts, which, Lines::Few)
+    text + "\n" + &tallied(Some(paper), verdicts, which, Lines::Few)
 }
 
 /// The sentences and rows that a proof refuses, with what they or their cells print.

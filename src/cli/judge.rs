@@ -50,7 +50,7 @@ impl Judge {
         }
         let _lock = if places.runs.is_dir() { Some(Lock::take(&places.runs)?) } else { None };
         let judged = judge(&paper, point, &places)?;
-        verdicts::print(&judged, &self.which);
+        verdicts::print(Some(&paper), &judged, &self.which);
         must_hold(&judged)
     }
 }

@@ -75,7 +75,7 @@ impl Repro {
         let point = self.how.interpretation(&paper.choices)?;
         let judged = judge::judge_changes(&paper, &point, &places, self.again)?;
         if self.all {
-            verdicts::print(&judged, &self.which);
+            verdicts::print(Some(&paper), &judged, &self.which);
         } else {
             findings::print(&paper, &judged, &self.which);
         }

@@ -41,7 +41,7 @@ impl Show {
         let verdicts = History::verdicts(&runs)?;
         check_stored(&runs)?;
         if self.words.is_empty() {
-            print(&verdicts, &which);
+            print(None, &verdicts, &which);
             return Ok(());
         }
         let words = self.words.join(" ");

@@ -6,13 +6,14 @@ use crate::analysis::verdict_rule::{Column, Verdict};
 use crate::render::prose::{columns, wrapped};
 use crate::render::tables::short;
 use std::io::IsTerminal as _;
+use study::paper::Paper;
 
 /// Output fits terminals of this many columns.
 pub const COLUMNS: usize = 100;
 
 /// Prints every claim's verdict, and how many there are of each; `which` is the paper as it was named.
-pub(super) fn print(verdicts: &Verdicts, which: &Which) {
-    say!("{}", table(verdicts, which).trim_end());
+pub(super) fn print(paper: Option<&Paper>, verdicts: &Verdicts, which: &Which) {
+    say!("{}", table(paper, verdicts, which).trim_end());
 }
 
 /// `word` in the colour of `verdict`, on a terminal alone.
@@ -25,7 +26,7 @@ pub fn coloured(verdict: Verdict, word: &str) -> String {
 }
 
 /// The table as text, within [`COLUMNS`].
-fn table(verdicts: &Verdicts, which: &Which) -> String {
+fn table(paper: Option<&Paper>, verdicts: &Verdicts, which: &Which) -> String {
     let head = ["claim", "printed", "ours", "solved", "verdict"].map(str::to_owned);
     let rows: Vec<[String; 5]> = [head].into_iter().chain(verdicts.claims.iter().map(cells)).collect();
     let lines = columns(&rows, [30, 14, 26, 9, COLUMNS]);
@@ -38,7 +39,7 @@ fn table(verdicts: &Verdicts, which: &Which) -> String {
             text += &(wrapped("   ", &what.join("; "), 4, COLUMNS) + "\n");
         }
     }
-    text + &tallied(verdicts, which, Lines::All)
+    text + &tallied(paper, verdicts, which, Lines::All)
 }
 
 /// Which lines about all claims are printed.
@@ -51,7 +52,7 @@ pub(super) enum Lines {
 }
 
 /// How many there are of each verdict, and what is to be known of them as a whole.
-pub(super) fn tallied(verdicts: &Verdicts, which: &Which, lines: Lines) -> String {
+pub(super) fn tallied(paper: Option<&Paper>, verdicts: &Verdicts, which: &Which, lines: Lines) -> String {
     let mut text = String::new();
     let mut counts = verdicts.counts();
     if lines == Lines::Few {
@@ -67,7 +68,7 @@ pub(super) fn tallied(verdicts: &Verdicts, which: &Which, lines: Lines) -> Strin
     }
     let named = if lines == Lines::Few { 1 } else { NAMED };
     let refused = refused_paths(verdicts).filter(|_| lines == Lines::All);
-    for line in explored(verdicts, which, named).into_iter().chain(refused).chain(verdicts.changed()) {
+    for line in explored(paper, verdicts, which, named).into_iter().chain(refused).chain(verdicts.changed()) {
         text += &(wrapped("", &line, 2, COLUMNS) + "\n");
     }
     text
@@ -76,8 +77,8 @@ pub(super) fn tallied(verdicts: &Verdicts, which: &Which, lines: Lines) -> Strin
 /// How many stale claims are named where there is room.
 const NAMED: usize = 6;
 
-/// What is to be known of interpretations and the second seed as a whole; of stale claims so many are `named`.
-fn explored(verdicts: &Verdicts, which: &Which, named: usize) -> Vec<String> {
+/// What is to be known of interpretations and the second seed as a whole; of stale claims so many are `named`, and the first is located.
+fn explored(paper: Option<&Paper>, verdicts: &Verdicts, which: &Which, named: usize) -> Vec<String> {
     let Some(explored) = &verdicts.explored else { return Vec::new() };
     let stale = |claims: &[String], what: &str, command: &str| {
         let command = which.command(command);
@@ -85,9 +86,12 @@ fn explored(verdicts: &Verdicts, which: &Which, named: usize) -> Vec<String> {
         let names: Vec<String> = claims.iter().take(named).map(|id| format!("`{id}`")).collect();
         let more = claims.len().saturating_sub(named);
         let more = if more > 0 { format!(" and {more} more claims") } else { String::new() };
-        (!claims.is_empty()).then(|| {
-            format!("{}{more} {verb} {what}: new, or changed since; run `{command}` again", names.join(", "))
-        })
+        let message =
+            format!("{}{more} {verb} {what}: new, or changed since; run `{command}` again", names.join(", "));
+        let test =
+            paper.and_then(|paper| paper.claim(claims.first()?)).and_then(|first| first.tests().next());
+        let located = test.map(|(.., settings)| settings.error_at("", message.clone()).to_string());
+        Some(located.and_then(|text| Some(text.lines().next()?.to_owned())).unwrap_or(message))
     };
     let compatible = explored.none_compatible.then(|| {
         "no voting interpretation agrees with all that the studies were calibrated to, so all of them are judged".to_owned()

@@ -288,8 +288,9 @@ impl<'a> BuiltStudy<'a> {
     }
 
     /// Seconds of one core that a trial takes, as measured on the first instance of each problem group; its records are dropped.
-    /// `None` without trials, and where programs or files are needed that may not run or are not there.
-    pub fn seconds_a_trial(&self) -> Option<f64> {
+    /// Of trials that start programs these are seconds on the clock. `None` without trials, and where programs or files are needed that
+    /// may not run or are not there.
+    pub fn seconds_a_trial(&self, starts_programs: bool) -> Option<f64> {
         let none = BTreeMap::new();
         let is_first = |index: &usize| self.unit(*index).key.instance == 0;
         let first: Vec<usize> = (0..self.units().len()).filter(is_first).collect();
@@ -299,7 +300,8 @@ impl<'a> BuiltStudy<'a> {
             return None;
         }
         let run = || self.alike(&first, &none).iter().for_each(|alike| drop(self.run_alike(alike, &none)));
-        let (nanoseconds, ()) = pool(Some(1)).install(|| clock::timed(run));
+        let spent = || if starts_programs { clock::timed(run).0 } else { clock::spent_ns(run) };
+        let nanoseconds = pool(Some(1)).install(spent);
         Some(nanoseconds as f64 * 1e-9 / trials as f64)
     }
 

@@ -404,14 +404,109 @@ fn a_changed_margin_printed_number_name_or_criterion_of_the_same_numbers_needs_n
     toy.0.done(&["judge", "./toy", "--check"]);
 }
 
+/// A number of the drawn maps that A* gives without a weight alone, to which the study is fitted.
+const MEAN: [(&str, &str); 2] = [
+    (
+        "[[claim]]\nid = \"witness\"",
+        "[[claim]]\nid = \"mean\"\nat = \"section 2\"\nprinted = \"112\"\n[claim.check.within]\nstatistic = \"mean\"\nmargin = 100.4\n\
+         select = { study = \"draws\", problems = \"drawn\", metric = \"expansions\", contender = \"A*\" }\n\n\
+         [[claim]]\nid = \"witness\"",
+    ),
+    ("second_seed = 8\n[budget]", "second_seed = 8\nfitted_to = [\"mean\"]\n[budget]"),
+];
+
 #[test]
-fn another_metric_or_selection_is_not_explored_and_the_claim_is_named() {
+fn a_claim_that_another_option_than_the_default_meets_names_the_values_that_would_be_refused_there() {
+    let beside = |edits: &[(&str, &str)]| {
+        let toy = Toy::new(edits);
+        let judged = toy.claim("mean");
+        (judged.outcome, judged.verdict_text(), judged.beside.join("; "))
+    };
+    let (outcome, verdict, words) = beside(&[CITED, MEAN[0], MEAN[1]]);
+    assert_eq!((outcome, verdict.as_str()), (Outcome::Open, "fitted"), "{words}");
+    assert!(words.contains("power under hurry = none: a printed value below "), "{words}");
+    // Where the defaults meet it, their own finding has it.
+    let met = ("margin = 100.4", "margin = 102.0");
+    let (outcome, verdict, words) = beside(&[CITED, MEAN[0], MEAN[1], met]);
+    assert!(
+        outcome == Outcome::Fitted && verdict == "fitted" && !words.contains("power"),
+        "{outcome:?} {words}"
+    );
+}
+
+/// Shares of solved trials: on a file, and on what is drawn; each decides, and is shown beside the other.
+const SHARES: (&str, &str) = (
+    "[[claim]]\nid = \"witness\"",
+    "[[claim]]\nid = \"file\"\nat = \"section 2\"\nsays = \"it is solved\"\n\
+     check.share = { hits = \"solved\", accepted = [0.5, 1.0], select = { study = \"room\", problems = \"room\", contender = \"A*\" } }\n\
+     [[claim.shows.share]]\nhits = \"solved\"\nselect = { study = \"draws\", problems = \"drawn\", contender = \"A*\" }\n\n\
+     [[claim]]\nid = \"drawn\"\nat = \"section 2\"\nsays = \"it is solved\"\n\
+     check.on_every = { that = \"at_most\", bound = 1e4, select = { study = \"draws\", problems = \"drawn\", contender = \"A*\", metric = \"expansions\" } }\n\
+     [[claim.shows.share]]\nhits = \"solved\"\nselect = { study = \"room\", problems = \"room\", contender = \"A*\" }\n\n\
+     [[claim]]\nid = \"witness\"",
+);
+
+#[test]
+fn a_number_has_an_interval_only_where_something_is_drawn() {
+    let toy = Toy::new(&[SHARES]);
+    let found = |id: &str| -> Vec<(bool, bool)> {
+        let ours = toy.claim(id).findings.into_iter().map(|finding| finding.ours.unwrap());
+        ours.map(|ours| (ours.interval.is_some(), ours.what.ends_with(", 95 %"))).collect()
+    };
+    assert_eq!(found("file"), [(false, false), (true, true)]);
+    assert_eq!(found("drawn"), [(true, true), (false, false)]);
+}
+
+#[test]
+fn what_draws_nothing_needs_no_second_seed() {
+    let toy = Toy::new(&[CITED]);
+    let judged = toy.claim("calibrated");
+    let across = judged.across.as_ref().unwrap();
+    assert_eq!(
+        (judged.second, across.holds, across.fails, across.unconfirmed),
+        (None, 1, 1, 0),
+        "{judged:?}"
+    );
+    assert_eq!(judged.verdict_text(), "depends on hurry");
+    assert_eq!(toy.claim("fewer").across.unwrap().unconfirmed, 1, "one seed is enough for what is drawn");
+}
+
+#[test]
+fn another_metric_contender_or_group_is_not_explored_and_the_claim_is_named() {
     let toy = Toy::new(&[]);
+    let more = "[[problems]]\nlabel = \"drawn\"";
+    let other = DRAWS[DRAWS.find(more).unwrap()..DRAWS.find("[[contender]]").unwrap()]
+        .replace("\"drawn\"", "\"more\"");
+    let toys = [
+        ("contender = \"A*\", against = \"Two-sided\"", "contender = \"Lazy\", against = \"Two-sided\""),
+        (
+            "contender = \"A*\", against = \"Two-sided\"",
+            "contender = \"A*\", whole_instances = true, against = \"Two-sided\"",
+        ),
+        (
+            "problems = \"drawn\", metric = \"expansions\", contender = \"A*\"",
+            "problems = \"more\", metric = \"expansions\", contender = \"A*\"",
+        ),
+    ];
+    let with = Toy::new(&[(more, &format!("{other}{more}"))]);
+    for (from, to) in toys {
+        with.0.edit("toy/paper.toml", from, to);
+        with.0.done(&["judge", "./toy"]);
+        assert_eq!(with.verdicts().explored.unwrap().stale, ["fewer"], "{to}");
+        with.0.edit("toy/paper.toml", to, from);
+    }
+    with.0.done(&["judge", "./toy"]);
+    assert_eq!(with.verdicts().explored.unwrap().stale, [""; 0]);
     toy.0.edit("toy/paper.toml", "metric = \"expansions\", contenders", "metric = \"generated\", contenders");
     let output = toy.0.done(&["judge", "./toy"]);
-    assert!(output.contains("`witness` is judged under the default interpretation alone"), "{output}");
+    let text = fs::read_to_string(toy.0.at("toy/paper.toml")).unwrap();
+    let line = text.lines().position(|line| line.starts_with("check.exists")).unwrap() + 1;
+    let located =
+        format!("./toy/paper.toml:{line}:16: `witness` is judged under the default interpretation alone");
+    assert!(output.contains(&located), "{output}");
     assert_eq!(toy.claim("witness").across, None);
     assert!(toy.claim("fewer").across.is_some());
+    // Another budget makes other trials of all that look at them.
     toy.0.edit("toy/draws.toml", "expansions = 10_000", "expansions = 9_999");
     toy.0.done(&["run", "./toy"]);
     toy.0.done(&["judge", "./toy"]);

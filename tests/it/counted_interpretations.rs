@@ -343,7 +343,7 @@ fn a_reading_whose_paths_the_verifier_refuses_is_set_apart_where_the_paper_calls
     // Claims that look at no such path are judged under both.
     assert!(free.claim("fewer").across.unwrap().refused.is_empty());
     for toy in [&toy, &free] {
-        for command in ["judge", "check"] {
+        for command in ["judge", "check", "explore"] {
             let output = toy.0.done(&[command, "./toy"]);
             assert!(
                 output.contains("the verifier refuses many paths under sight = cutting"),

@@ -59,6 +59,21 @@ fn a_second_round_draws_more_only_where_a_class_is_near_a_flip() {
 }
 
 #[test]
+fn an_option_that_few_instances_do_not_tell_apart_keeps_their_outcome_and_is_not_counted() {
+    // It is no whole number, so other trials; on this map it expands what the default does.
+    let nearly = "stage.astar = { weight = 0 }\n[choice.option.nearly]\npractice = \"textbooks\"\nstage.astar = { weight = 3.000001 }";
+    let toy = Toy::new(&[CITED, MORE, MET, ("stage.astar = { weight = 0 }", nearly)]);
+    let first = toy.first();
+    let place = first.place(&[("hurry".to_owned(), "nearly".to_owned())].into()).unwrap();
+    let [own, default] = [place, 0].map(|place| first.result("fewer", place).unwrap());
+    assert!(own.is_as_far_as_seen(default) && (own.n, default.n) == (12, 30), "{own:?} {default:?}");
+    // Of nine interpretations three ran with few instances alone; the meaning of an unused name needs no trial.
+    let across = toy.claim("fewer").across.unwrap();
+    assert_eq!((across.counted, across.looked, across.not_looked_at), (2, 6, 3), "{across:?}");
+    assert_eq!(across.effects.keys().collect::<Vec<_>>(), ["hurry"]);
+}
+
+#[test]
 fn another_number_of_instances_is_explored_anew() {
     let toy = Toy::unexplored(&[CITED, MORE, MET]);
     toy.0.done(&["explore", "./toy"]);

@@ -151,3 +151,13 @@ fn the_second_judge_knows_the_families_in_which_something_is_drawn() {
     let drawn = study::family::REGISTRY.iter().filter(|entry| entry.is_drawn).map(|entry| entry.name);
     assert_eq!(known, drawn.collect::<Vec<_>>());
 }
+
+#[test]
+fn every_column_is_a_metric_unless_a_clock_gives_it() {
+    let is_clock = |name: &str| name.ends_with("_wall_ns");
+    let (clocks, others): (Vec<&str>, Vec<&str>) =
+        column::COLUMNS.iter().map(|column| column.name).partition(|name| is_clock(name));
+    let lost: Vec<&&str> = others.iter().filter(|name| metric::find(name).is_none()).collect();
+    assert!(lost.is_empty() && others.len() > 50, "{lost:?} of {}", others.len());
+    assert!(clocks.iter().all(|name| metric::find(name).is_none()), "{clocks:?}");
+}

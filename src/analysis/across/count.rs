@@ -136,7 +136,20 @@ impl VotingChoices {
             |result: &ExploredResult| most.is_some_and(|most| 100.0 * result.refused > f64::from(most));
         // Where all are refused, none can be set apart from the others.
         let some_stand = claim.results.iter().any(|result| !is_refused(result));
+        let has_more = |other: &&ExploredResult| {
+            let is_judged = other.interpretations.iter().any(|place| judged.contains(place));
+            other.more.is_some() && is_judged && !(some_stand && is_refused(other))
+        };
+        let with_more: BTreeSet<&str> =
+            claim.results.iter().filter(has_more).map(|result| result.results.as_str()).collect();
         for result in &claim.results {
+            // Few instances that do not tell it from a result of more are no other result, and may not borrow that one's outcome.
+            let is_told_apart = result.more.is_some() || !with_more.contains(result.results.as_str());
+            if !is_told_apart && !result.interpretations.contains(&0) {
+                counted.not_looked_at +=
+                    result.interpretations.iter().filter(|place| judged.contains(place)).count();
+                continue;
+            }
             let hollow = result.outcome.polarity() == Polarity::For
                 && paper
                     .claim(id)

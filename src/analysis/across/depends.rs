@@ -152,9 +152,8 @@ impl<'a> Sides<'a> {
             self.first.result(self.id, place)
         };
         let found: Vec<_> = voting.map(alone).collect();
-        let is_other = |found: &ExploredResult| {
-            found.sight == Sight::Unexplored || found.results != base.results || found.outcome != base.outcome
-        };
+        let is_other =
+            |found: &ExploredResult| found.sight == Sight::Unexplored || !found.is_as_far_as_seen(base);
         found.is_empty() || found.iter().any(|found| found.is_none_or(is_other))
     }
 

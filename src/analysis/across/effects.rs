@@ -54,7 +54,7 @@ pub(super) fn each(
                 continue;
             }
             let effect = match (default.polarity(), result.outcome.polarity()) {
-                _ if result.results == base.results => Effect::None,
+                _ if result.is_as_far_as_seen(base) => Effect::None,
                 _ if result.sight.is_powerless() || result.outcome == default => Effect::Number,
                 (own, other) if own == other => Effect::Outcome,
                 (_, Polarity::Open) | (Polarity::Open, _) => Effect::Opens,

@@ -54,6 +54,8 @@ pub struct Glance {
     pub results: String,
     /// The studies that it looks at.
     pub studies: BTreeSet<String>,
+    /// Which printed values would have been refused, in words.
+    pub power: Option<String>,
 }
 
 /// What every claim is found to be under one interpretation.
@@ -161,6 +163,7 @@ fn alone(claim: &Claim, weighed: &[CappedFinding]) -> Glance {
         refused: weighed.iter().filter(decides).map(|one| one.refused).fold(0.0, f64::max),
         results: digest(weighed),
         studies: weighed.iter().filter(decides).flat_map(|one| one.studies.iter().cloned()).collect(),
+        power: deciding.iter().find_map(|one| one.finding.power()).map(str::to_owned),
     }
 }
 
@@ -217,6 +220,7 @@ fn with_parts(paper: &Paper, point: &Interpretation, mut glances: Glances) -> Gl
             refused: parts.iter().map(|part| part.refused).fold(0.0, f64::max),
             results: sha256(results.as_bytes())[..12].to_owned(),
             studies: parts.iter().flat_map(|part| part.studies.iter().cloned()).collect(),
+            power: None,
         };
         glances.insert(claim.id.clone(), meant(claim, claim.is_meant(point), whole));
     }

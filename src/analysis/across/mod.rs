@@ -166,8 +166,7 @@ impl OfClaim<'_> {
         none_compatible
     }
 
-    /// Gives `judged` its outcome on the second seed, if it looks at trials, and whether a seed moves anything. Where nothing is
-    /// drawn, no other instance could be: its numbers have no interval.
+    /// Gives `judged` its outcome on the second seed, if it looks at trials, and whether a seed moves anything.
     fn look_at_seeds(&self, judged: &mut ClaimVerdict, touched: &Touched<'_>) {
         let own = self.second.and_then(|second| second.result(&self.claim.id, 0));
         let own = own.filter(|_| touched.looks_at_trials());
@@ -177,10 +176,6 @@ impl OfClaim<'_> {
         judged.second_p = own.and_then(|own| own.value).filter(|_| is_p);
         let is_moved = judged.second.is_some_and(|second| second != judged.outcome);
         judged.is_seedless = !is_moved && touched.draws_nothing(self.paper);
-        let deciding = judged.findings.iter_mut().filter(|finding| finding.outcome.is_some());
-        for ours in deciding.filter_map(|finding| finding.ours.as_mut()).filter(|_| judged.is_seedless) {
-            *ours = ours.clone().without_interval();
-        }
     }
 
     /// Gives `judged` the verdict of its results, with what stands beside it.
@@ -192,7 +187,9 @@ impl OfClaim<'_> {
         let not_varied = wording::listed("choices not varied", &judged.not_varied);
         let unvaried = calibrated.into_iter().chain(not_varied).filter(|_| is_bearing);
         let beside = judged.possible().map_or(beside, |possible| vec![possible.to_owned()]);
-        judged.beside = beside.into_iter().chain(unvaried).collect();
+        let is_met = matches!(verdict, Verdict::Reproduced | Verdict::Fitted);
+        let power = view.power().filter(|_| is_met && judged.power().is_none());
+        judged.beside = beside.into_iter().chain(power).chain(unvaried).collect();
         (judged.verdict, judged.depends_on) = (verdict, depends_on);
         judged.across = view.first.map(|first| self.across(first, judged, view, line));
     }

@@ -83,8 +83,12 @@ pub struct ExploredResult {
     pub farthest: Option<String>,
     /// The share of returned paths that the verifier refuses, from 0 to 1.
     pub refused: f64,
-    /// A hash of the trials' results.
+    /// A hash of the trials' results on the first instances.
     pub results: String,
+    /// The same with more instances, where these ran.
+    pub more: Option<String>,
+    /// Which printed values would have been refused, in words.
+    pub power: Option<String>,
 }
 
 /// A number to the digits that are shown of it.
@@ -190,59 +194,47 @@ impl Now {
 }
 
 impl ExploredResult {
-    fn new(glance: &Glance) -> Self {
-        let mut result = Self {
+    /// What was found on the first instances, and with `more` where these say as much.
+    fn new(first: &Glance, more: Option<&Glance>) -> Self {
+        let more = more.filter(|more| more.sight >= first.sight);
+        let best = more.unwrap_or(first);
+        let interval = best.ours.and_then(|(_, interval, _)| interval);
+        Self {
             interpretations: Vec::new(),
-            outcome: glance.outcome,
-            sight: glance.sight,
-            value: None,
-            interval: None,
-            n: 0,
-            farthest: None,
-            refused: 0.0,
-            results: glance.results.clone(),
-        };
-        result.set(glance);
-        result
+            outcome: best.outcome,
+            sight: best.sight,
+            value: best.ours.map(|(value, ..)| shown(value)).filter(|value| value.is_finite()),
+            interval: interval
+                .map(|ends| ends.map(shown))
+                .filter(|ends| ends.iter().all(|end| end.is_finite())),
+            n: best.ours.map_or(0, |(_, _, n)| n),
+            farthest: best.farthest.clone(),
+            refused: shown(best.refused),
+            results: first.results.clone(),
+            more: more.map(|more| more.results.clone()),
+            power: best.power.clone(),
+        }
     }
 
-    fn set(&mut self, glance: &Glance) {
-        (self.outcome, self.sight) = (glance.outcome, glance.sight);
-        self.refused = shown(glance.refused);
-        self.value = glance.ours.map(|(value, ..)| shown(value)).filter(|value| value.is_finite());
-        let interval = glance.ours.and_then(|(_, interval, _)| interval);
-        self.interval =
-            interval.map(|ends| ends.map(shown)).filter(|ends| ends.iter().all(|end| end.is_finite()));
-        self.n = glance.ours.map_or(0, |(_, _, n)| n);
-        self.farthest.clone_from(&glance.farthest);
+    /// Whether it has the trials' results of `other` on the instances that ran for both.
+    pub fn is_as_far_as_seen(&self, other: &Self) -> bool {
+        let is_as_more = self.more.as_ref().zip(other.more.as_ref()).is_none_or(|(own, other)| own == other);
+        self.results == other.results && is_as_more
     }
 }
 
 /// What was found, equal results once, of a claim at a glance under the interpretation at each place, and with more instances where these ran.
-/// Interpretations that few instances do not tell apart and more instances do are two results; where more instances did not run, an interpretation stays with
-/// the first that was equal.
+/// Results are equal if they have the same numbers of the same instances: one of fewer instances is another result, with its own outcome.
 pub(super) fn results(seen: &[(usize, &Glance, Option<&Glance>)]) -> Vec<ExploredResult> {
-    let mut found: Vec<(&str, Option<&Glance>, ExploredResult)> = Vec::new();
+    let mut found: Vec<ExploredResult> = Vec::new();
     for (place, first, more) in seen {
-        let more = more.filter(|more| more.sight >= first.sight);
-        let is_it = |(few, known, _): &(&str, Option<&Glance>, ExploredResult)| {
-            let is_as_known = known.zip(more).is_none_or(|(known, more)| known.results == more.results);
-            *few == first.results && is_as_known
-        };
-        let at = found.iter().position(is_it);
-        let is_parted = at.is_none() && found.iter().any(|(few, ..)| *few == first.results);
-        let at = at.unwrap_or_else(|| {
-            found.push((&first.results, None, ExploredResult::new(first)));
+        let own = ExploredResult::new(first, *more);
+        let is_it = |known: &ExploredResult| known.results == own.results && known.more == own.more;
+        let at = found.iter().position(is_it).unwrap_or_else(|| {
+            found.push(own);
             found.len() - 1
         });
-        let (_, known, result) = &mut found[at];
-        result.interpretations.push(*place);
-        let Some(more) = more else { continue };
-        *known = Some(more);
-        result.set(more);
-        if is_parted {
-            result.results.clone_from(&more.results);
-        }
+        found[at].interpretations.push(*place);
     }
-    found.into_iter().map(|(.., result)| result).collect()
+    found
 }

@@ -2,6 +2,7 @@
 
 use super::super::criterion::EXISTS;
 use super::super::evidence::default_point;
+use base::settings::Settings;
 use std::collections::BTreeSet;
 use study::paper::{Claim, Paper, TestRole};
 use study::{Choice, Contender, Group, Study};
@@ -23,14 +24,24 @@ impl<'p> Touched<'p> {
     pub fn new(paper: &'p Paper, claim: &'p Claim) -> Self {
         let parts = claim.parts.ids().iter().filter_map(|id| paper.claim(id));
         let claims: Vec<&Claim> = std::iter::once(claim).chain(parts).collect();
+        let decides = |claim: &&'p Claim| claim.tests().filter(|(role, ..)| *role != TestRole::Shown);
+        let settings = claims.iter().flat_map(decides).map(|(.., settings)| settings);
+        Self { claims: claims.clone(), ..Self::by(paper, settings) }
+    }
+
+    /// What one criterion looks at.
+    pub fn by_test(paper: &'p Paper, settings: &'p Settings) -> Self {
+        Self::by(paper, std::iter::once(settings))
+    }
+
+    fn by(paper: &'p Paper, settings: impl Iterator<Item = &'p Settings>) -> Self {
         let mut names = BTreeSet::new();
         let mut words = BTreeSet::new();
-        let decides = |claim: &&'p Claim| claim.tests().filter(|(role, ..)| *role != TestRole::Shown);
-        for (_, _, settings) in claims.iter().flat_map(decides) {
-            settings.table().iter().for_each(|(key, value)| gather(key, value, &mut names, &mut words));
+        for (key, value) in settings.flat_map(Settings::table) {
+            gather(key, value, &mut names, &mut words);
         }
         let studies = paper.studies.iter().filter(|study| names.contains(study.name.as_str())).collect();
-        Self { claims, studies, words }
+        Self { claims: Vec::new(), studies, words }
     }
 
     /// Whether it looks at trials that were recorded elsewhere.

@@ -102,10 +102,20 @@ impl View<'_> {
 
     /// The first interpretation that meets the claim, if it is not the default.
     fn met(&self) -> String {
-        let both = self.counted.groups.iter().zip(self.results.outcomes);
-        let first = both.into_iter().find(|(_, outcome)| outcome.polarity() == Polarity::For);
-        let named = first.and_then(|(group, _)| self.named(group));
+        let named = self.first_met().and_then(|group| self.named(group));
         named.map_or_else(String::new, |name| format!(", {name} among them"))
+    }
+
+    fn first_met(&self) -> Option<&Group> {
+        let mut both = self.counted.groups.iter().zip(self.results.outcomes);
+        both.find(|(_, outcome)| outcome.polarity() == Polarity::For).map(|(group, _)| group)
+    }
+
+    /// Which printed values would have been refused under the first interpretation that meets the claim, if it is not the default.
+    pub fn power(&self) -> Option<String> {
+        let group = self.first_met()?;
+        let power = self.first?.result(self.id, group.interpretation)?.power.as_ref()?;
+        Some(format!("power under {}: {power}", self.named(group)?))
     }
 
     /// A result, named after the options of its first interpretation that differ from the defaults; `None` of the defaults.

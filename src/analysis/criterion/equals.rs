@@ -10,7 +10,7 @@ use crate::analysis::number::{Number, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{Share, too_few};
+use crate::analysis::statistic::{SHARE_INTERVAL, Share, too_few};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -183,6 +183,7 @@ impl Criterion for Equals<'_> {
         CriterionResult {
             outcome: Some(outcome),
             ours,
+            about_interval: SHARE_INTERVAL.to_owned(),
             because,
             units: "trials",
             // That something is wrong hangs on them only if nothing else is.

@@ -138,11 +138,12 @@ impl<'a> Lower<'a> {
         let found = self.found(interval, all.is_tied());
         // What fills in for those that are missing ties with nothing.
         let is_turned = ended(numbers).any(|filled| self.found(turned(filled), false) != found);
-        let what = format!("change of {metric} in %, {} 95 % over instances", how(all.is_agreed));
+        let what = format!("change of {metric} in %");
         let ours = Estimate::new(value, interval, what, all.n).measures(Quantity::MorePercent, metric);
         CriterionResult {
             outcome: Some(found),
             ours: Some(ours.of_cases(all.cases())),
+            about_interval: format!(", {} 95 % over instances", how(all.is_agreed)),
             because: std::iter::once(self.sentence(metric, (value, interval), all))
                 .chain(all.is_tied().then(|| tied(all.measured)).flatten())
                 .collect(),
@@ -227,7 +228,7 @@ impl<'a> Lower<'a> {
             all.n,
             points.len(),
         );
-        let what = format!("least mean difference in points, at {}, simultaneous 95 % band", least.part);
+        let what = format!("least mean difference in points, at {}", least.part);
         let ours = Estimate::new(mean, band, what, all.n).measures(Quantity::MorePoints, "solved queries");
         let is_turned = [Ends::Least, Ends::Most]
             .into_iter()
@@ -236,6 +237,7 @@ impl<'a> Lower<'a> {
         CriterionResult {
             outcome: Some(outcome),
             ours: Some(ours.of_cases(all.cases())),
+            about_interval: ", simultaneous 95 % band".to_owned(),
             because: vec![because],
             limits: vec![0.0],
             units: "instances",

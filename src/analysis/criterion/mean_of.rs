@@ -204,10 +204,10 @@ impl Criterion for MeanOf<'_> {
         );
         let half = self.rounded.half_width();
         let kept = Interval::new(low - half, high + half);
-        let shown = format!("{what}; the interval is that of a mean of {} instances, 95 %", self.instances);
         CriterionResult {
             outcome: Some(outcome),
-            ours: Some(Estimate::new(value, interval, shown, all.n).of_cases(all.cases())),
+            ours: Some(Estimate::new(value, interval, what, all.n).of_cases(all.cases())),
+            about_interval: format!("; the interval is that of a mean of {} instances, 95 %", self.instances),
             because: vec![because],
             units: "instances",
             censored: if all.unended > 0 { self.censored(numbers, outcome) } else { 0 },

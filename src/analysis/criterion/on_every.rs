@@ -9,7 +9,7 @@ use crate::analysis::number::{Number, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Case, Instance, Selection, cases, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{Share, tied, too_few};
+use crate::analysis::statistic::{SHARE_INTERVAL, Share, tied, too_few};
 use base::settings::{Accepted, SettingsError};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -226,6 +226,7 @@ impl Criterion for OnEvery<'_> {
             outcome: Some(outcome),
             ties: if outcome == Outcome::Open { equal } else { 0 },
             ours: share.map(|ours| ours.of_cases(all.cases())),
+            about_interval: SHARE_INTERVAL.to_owned(),
             because: std::iter::once(because).chain(tie).chain(left).chain(outside).collect(),
             units: "cases",
             censored: unknown,

@@ -279,7 +279,7 @@ impl Criterion for OneInstance<'_> {
                 "no power: the interval covers {NO_POWER_POINTS} points or more, so almost any printed value would fit; more instances of ours do not narrow it, since the paper prints one"
             )
         }));
-        let what = format!("{}: mean, 95 % predictive interval of one more instance", self.title());
+        let what = format!("{}: mean", self.title());
         let ours = Estimate::new(mean, interval, what, instances.values.len());
         let ours = match self.selection.metric.filter(|_| self.selection.against.is_some()) {
             Some(metric) => ours.measures(Quantity::LessPercent, metric.label.to_lowercase()),
@@ -288,6 +288,7 @@ impl Criterion for OneInstance<'_> {
         CriterionResult {
             outcome: Some(outcome),
             ours: Some(ours.of_cases(all.cases())),
+            about_interval: ", 95 % predictive interval of one more instance".to_owned(),
             because,
             premises: self.premises.clone(),
             powerless,

@@ -9,7 +9,7 @@ use crate::analysis::number::{Ends, Number, ended, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{Case, Instance, Selection, cases, is_unended, most_cases};
 use crate::analysis::selection_spec::SelectionSpec;
-use crate::analysis::statistic::{Share, narrows, needs};
+use crate::analysis::statistic::{SHARE_INTERVAL, Share, narrows, needs};
 use crate::analysis::verdict::Quantity;
 use base::settings::{Accepted, SettingsError};
 use base::text::computed;
@@ -399,6 +399,7 @@ impl Criterion for Counted<'_> {
         CriterionResult {
             outcome,
             ours: Some(ours.of_cases(all.cases())),
+            about_interval: SHARE_INTERVAL.to_owned(),
             because: std::iter::once(self.because(&share, all)).chain(self.outside(all.outside)).collect(),
             limits: self.settings.accepted.map_or_else(Vec::new, |accepted| accepted.to_vec()),
             units: "instances",

@@ -154,12 +154,12 @@ impl Criterion for Trend<'_> {
             self.over,
             medians,
         );
-        let what =
-            format!("slope of {subject} along {}:{unit} each, bootstrap 95 % over instances", self.over);
+        let what = format!("slope of {subject} along {}:{unit} each", self.over);
         let is_turned = ended(numbers).any(|slope| self.outcome(slope) != outcome);
         CriterionResult {
             outcome: Some(outcome),
             ours: Some(Estimate::new(value, interval, what, all.n).of_cases(all.cases())),
+            about_interval: ", bootstrap 95 % over instances".to_owned(),
             because: vec![because],
             limits: vec![0.0],
             units: "instances",

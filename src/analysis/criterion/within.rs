@@ -230,8 +230,7 @@ impl Criterion for Within<'_> {
         };
         let outcome = self.outcome(interval);
         let metric = self.metric.label.to_lowercase();
-        let what =
-            format!("{} of {metric}, {} 95 % over instances", self.statistic.name(), how(all.is_agreed));
+        let what = format!("{} of {metric}", self.statistic.name());
         let ours = Estimate::new(value, interval, what, all.n);
         let ours = match self.statistic {
             OverallStatistic::ReductionPercent => ours.measures(Quantity::LessPercent, metric.as_str()),
@@ -259,6 +258,7 @@ impl Criterion for Within<'_> {
         CriterionResult {
             outcome: Some(outcome),
             ours: Some(ours.of_cases(all.cases())),
+            about_interval: format!(", {} 95 % over instances", how(all.is_agreed)),
             because: vec![because],
             limits: vec![self.accepted.low, self.accepted.high],
             units: "instances",

@@ -64,19 +64,3 @@ fn a_seed_that_moves_nothing_says_so_in_place_of_its_outcome() {
         assert_eq!(joint.beside_with_seed().unwrap(), format!("same under all 3; second seed: {words}"));
     }
 }
-
-#[test]
-fn a_number_without_its_interval_does_not_speak_of_one() {
-    let interval = Interval::new(0.0, 2.0);
-    for (what, left) in [
-        ("share of trials, 95 %", "share of trials"),
-        ("mean of path cost, bootstrap 95 % over instances", "mean of path cost"),
-        (
-            "least difference in points, at samples=9, simultaneous 95 % band",
-            "least difference in points, at samples=9",
-        ),
-    ] {
-        let bare = Estimate::new(1.0, interval, what, 3).without_interval();
-        assert_eq!((bare.interval, bare.what.as_str(), bare.n), (None, left, 3));
-    }
-}

@@ -135,11 +135,19 @@ fn our_clock_says_nothing_of_the_authors_times_and_decides_questions_of_our_own(
     let judged = paper.judgement(records(), &[]);
     assert_eq!((judged.outcome.name(), judged.verdict.name()), ("not testable", "not testable"));
     assert!(judged.findings[0].because.last().unwrap().contains("our clock does not test it"), "{judged:?}");
+    // Where a paper leaves something open, the clock was read under the defaults alone.
+    let choice = "[[choice]]\nid = \"name\"\nwhy = \"it is open\"\ndefault = \"a\"\npaper = \"here\"\n\
+                  [choice.option]\na = { metric = { name = \"opened\" } }\nb = { metric = { name = \"closed\" } }\n";
+    let says = |text: &str| {
+        let judged = Synthetic::new(text, Made::Timed).judgement(records(), &[]);
+        judged.findings[0].because.iter().any(|line| line == "the clock was read under the defaults alone")
+    };
+    assert_eq!([says(&claim), says(&(claim.clone() + choice))], [false, true]);
 }
 
 #[test]
 fn a_problem_that_cannot_be_posed_is_left_out_of_what_holds_on_each_and_is_named() {
-    let found = |lower: &str, higher: &str| {
+    let found = |criterion: &str, settings: &str| {
         let mut sample = Sample::default();
         for (group, ends) in [("map", [At(50.0), At(100.0)]), ("other", [Unposed, Unposed])] {
             for _ in 0..10 {
@@ -148,16 +156,30 @@ fn a_problem_that_cannot_be_posed_is_left_out_of_what_holds_on_each_and_is_named
                 sample.trial("B", ends[1]);
             }
         }
-        let selection =
-            "select = { study = \"drawn\", problems = [\"map\", \"other\"], metric = \"path_cost_cells\" }";
-        let settings = format!("{selection}\nlower = \"{lower}\"\nhigher = [\"{higher}\"]");
-        let one = judged("least_of", &settings, Made::Plainly, sample);
+        let one = judged(criterion, settings, Made::Plainly, sample);
         (one.outcome.name(), one.findings[0].because.join("; "))
     };
+    let select = |more: &str| {
+        format!(
+            "select = {{ study = \"drawn\", problems = [\"map\", \"other\"], metric = \"path_cost_cells\"{more} }}\n"
+        )
+    };
+    let least = |one: &str, other: &str| select("") + &format!("lower = \"{one}\"\nhigher = [\"{other}\"]");
+    let against = |one: &str, other: &str| select(&format!(", contender = \"{one}\", against = \"{other}\""));
+    let group = "left out, for it cannot be posed: other";
+    let problems = "no problem could be posed in 10 of 20";
     for (one, other, outcome) in [("A", "B", "holds"), ("B", "A", "contradicted")] {
-        let (found, because) = found(one, other);
-        let is_reported = because.contains("left out, for it cannot be posed: other");
-        assert!(found == outcome && is_reported, "{one} below {other}: {found}: {because}");
+        let lower = against(one, other) + "that = \"lower\"";
+        let share = against(one, other) + "hits = \"lower\"\naccepted = [0.6, 1.0]";
+        for (criterion, settings, reported) in [
+            ("least_of", least(one, other), group),
+            ("on_every", lower, problems),
+            ("share", share, problems),
+        ] {
+            let (found, because) = found(criterion, &settings);
+            let is_reported = because.contains(reported);
+            assert!(found == outcome && is_reported, "{criterion}: {one} below {other}: {found}: {because}");
+        }
     }
 }
 
