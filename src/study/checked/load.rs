@@ -18,7 +18,7 @@ use toml::Table;
 
 impl Study {
     /// The study in `document`, of a paper that says what is `shared`, as far as it can be read, if at all; everything that is wrong
-    /// goes to `faults`.
+    /// in its text goes to `faults`. Nothing is built yet.
     ///
     /// # Errors
     /// What the system refuses.
