@@ -270,7 +270,7 @@ fn robots() -> (Vec<(String, String)>, Vec<Result<(), Failure>>) {
 /// The paper called `name`, read as `how` reads it.
 fn read(name: &str, how: impl Fn(&Path, &Inputs) -> Result<Paper, StudyError>) -> Result<Paper, Failure> {
     let folder = experiments().join(name);
-    let inputs = Inputs { roots: vec![folder.clone(), home(None)?] };
+    let inputs = Inputs::below(vec![folder.clone(), home(None)?]);
     Ok(how(&folder, &inputs)?)
 }
 
