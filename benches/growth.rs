@@ -52,7 +52,7 @@ fn claims(count: usize) -> String {
             )
         } else {
             format!(
-                "[claim.check.lower]\nof = {{ study = \"s0\", problems = \"m{group}\", contender = \"B\", against = \"A\", metric = \
+                "[claim.check.lower]\nselect = {{ study = \"s0\", problems = \"m{group}\", contender = \"B\", against = \"A\", metric = \
                  \"opened\" }}\n"
             )
         };
