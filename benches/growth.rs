@@ -1,7 +1,8 @@
 //! How the time of reading and judging a paper grows with its claims, choices and studies.
 //!
 //! The papers are made up, and so are their records: nothing is planned. Each line ends with the exponent of a power of the
-//! size fitted to the times. `REPLAN_GROWTH=1000` leaves larger sizes out.
+//! size fitted to the times. `REPLAN_GROWTH=1000` leaves larger sizes out. `cargo test` runs the smallest alone: there only that each
+//! claim gets a verdict counts.
 
 use engine::planner::Value;
 use replan::analysis::claims::judge;
@@ -51,7 +52,7 @@ fn claims(count: usize) -> String {
             )
         } else {
             format!(
-                "[claim.check.lower]\nof = {{ study = \"s0\", problems = \"m{group}\", contender = \"B\", against = \"A\", metric = \
+                "[claim.check.lower]\nselect = {{ study = \"s0\", problems = \"m{group}\", contender = \"B\", against = \"A\", metric = \
                  \"opened\" }}\n"
             )
         };
@@ -95,12 +96,12 @@ fn seconds(text: &str, studies: usize, groups: usize) -> [f64; 2] {
     for number in 0..studies {
         fs::write(home.join(format!("s{number}.toml")), study(groups)).unwrap();
     }
-    let inputs = Inputs { roots: vec![home.clone()] };
+    let inputs = Inputs::below(vec![home.clone()]);
     let (reading, paper) = clock::timed(|| Paper::load(&home, &inputs).unwrap());
     let stored = BTreeMap::from([("s0".to_owned(), records(&paper.studies[0], &inputs))]);
     let evidence = Evidence::held(&paper, default_point(&paper), stored);
     let (judging, verdicts) = clock::timed(|| judge(&evidence).unwrap());
-    black_box(verdicts);
+    assert_eq!(black_box(verdicts).claims.len(), paper.claims.len());
     [reading, judging].map(|nanoseconds| nanoseconds as f64 / 1e9)
 }
 
@@ -115,7 +116,9 @@ fn exponent(points: &[(usize, f64)]) -> f64 {
 }
 
 fn main() {
-    let most = std::env::var("REPLAN_GROWTH").map_or(usize::MAX, |most| most.parse().unwrap());
+    let is_bench = std::env::args().any(|argument| argument == "--bench");
+    let otherwise = if is_bench { usize::MAX } else { SIZES[0] };
+    let most = std::env::var("REPLAN_GROWTH").map_or(otherwise, |most| most.parse().unwrap());
     let kinds: [(&str, [usize; 3], fn(usize) -> [f64; 2]); 3] = [
         ("claims", SIZES, |size| seconds(&claims(size), 1, GROUPS)),
         ("choices", CHOICES, |size| seconds(&choices(size), 1, 1)),

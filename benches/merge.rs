@@ -92,7 +92,7 @@ fn main() {
     fs::create_dir(&home).unwrap();
     fs::write(home.join("paper.toml"), PAPER).unwrap();
     fs::write(home.join("s.toml"), study()).unwrap();
-    let inputs = Inputs { roots: vec![home.clone()] };
+    let inputs = Inputs::below(vec![home.clone()]);
     let paper = Paper::load(&home, &inputs).unwrap();
     let study = &paper.studies[0];
     let points = paper.studies[0].trial_interpretations().unwrap();

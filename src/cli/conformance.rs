@@ -75,7 +75,7 @@ fn posed(name: &str, over: &str) -> Result<(World, Vec<Posed>), String> {
     let settings =
         Settings::composed("conformance", table(entry.example)).overlaid(&table(over), "conformance");
     let root = home(None).map_err(|failure| failure.message)?;
-    let inputs = Inputs { roots: vec![root] };
+    let inputs = Inputs::below(vec![root]);
     let family = (entry.build)(&settings, &inputs).map_err(|error| error.to_string())?;
     let preprocessing =
         (0..100).find_map(|seed| family.prepare(seed).ok().map(|preprocessing| (seed, preprocessing)));

@@ -17,7 +17,7 @@ use engine::kinematics::{AXES, Robot, robot::Body};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use study::paper::Paper;
-use study::{Choice, Contender, Group, Inputs, Study, elsewhere_mark, recorded_mark};
+use study::{Choice, Contender, Group, Inputs, Study, StudyError, elsewhere_mark, recorded_mark};
 
 /// Where robots are shipped.
 const ROBOTS: &str = "data/robots";
@@ -87,7 +87,7 @@ struct LoadedFiles {
 impl LoadedFiles {
     /// The papers and robots that can be read, if a kind that needs them is requested, and how reading each went.
     fn read(is_wanted: impl Fn(&[What]) -> bool) -> (Self, Vec<Result<(), Failure>>) {
-        let papers = is_wanted(&[What::Papers, What::Studies, What::Choices]).then(loaded);
+        let papers = is_wanted(&[What::Papers, What::Studies, What::Choices]).then(outlined);
         let (papers, mut results) = papers.unwrap_or_default();
         let read = is_wanted(&[What::Robots]).then(robots);
         let (robots, faults) = read.unwrap_or_default();
@@ -105,7 +105,9 @@ impl LoadedFiles {
                 choices.filter(|own| own.id == choice).map(choice_alone).next()
             }
             (What::Studies, Some((id, study))) => {
-                let found = find(id).and_then(|paper| Some((paper, paper.study(study)?)));
+                // Its trials are counted, which takes what its problems are built from.
+                let paper = find(id).map(|_| read(id, Paper::load)).transpose()?;
+                let found = paper.as_ref().and_then(|paper| Some((paper, paper.study(study)?)));
                 found.map(|(paper, study)| study_alone(paper, study)).transpose()?
             }
             _ => None,
@@ -265,15 +267,18 @@ fn robots() -> (Vec<(String, String)>, Vec<Result<(), Failure>>) {
     (robots, faults)
 }
 
-/// Every paper that can be read, and how reading each went.
-fn loaded() -> (Vec<Paper>, Vec<Result<(), Failure>>) {
-    let load = |name: String| -> Result<Paper, Failure> {
-        let folder = experiments().join(name);
-        let inputs = Inputs { roots: vec![folder.clone(), home(None)?] };
-        Ok(Paper::load(&folder, &inputs)?)
-    };
+/// The paper called `name`, read as `how` reads it.
+fn read(name: &str, how: impl Fn(&Path, &Inputs) -> Result<Paper, StudyError>) -> Result<Paper, Failure> {
+    let folder = experiments().join(name);
+    let inputs = Inputs::below(vec![folder.clone(), home(None)?]);
+    Ok(how(&folder, &inputs)?)
+}
+
+/// Every paper that can be read, as it is written, and how reading each went.
+fn outlined() -> (Vec<Paper>, Vec<Result<(), Failure>>) {
     doing("reading the papers");
-    let read: Vec<Result<Paper, Failure>> = papers().into_par_iter().map(load).collect();
+    let read: Vec<Result<Paper, Failure>> =
+        papers().into_par_iter().map(|name| read(&name, Paper::outline)).collect();
     let mut papers = Vec::new();
     let mut results = Vec::new();
     for paper in read {

@@ -78,7 +78,7 @@ impl Places {
             plots: root.join("plots").join(&id),
             report: root.join("paper_repro.md"),
             scratch,
-            inputs: Inputs { roots: vec![folder.clone(), home.clone()] },
+            inputs: Inputs::below(vec![folder.clone(), home.clone()]),
             home,
             folder,
         })

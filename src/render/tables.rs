@@ -285,7 +285,7 @@ mod tests {
     #[test]
     fn a_file_of_numbers_says_that_inputs_are_stand_ins_where_they_are() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let inputs = Inputs { roots: vec![root.to_owned()] };
+        let inputs = Inputs::below(vec![root.to_owned()]);
         for (name, has) in [("tang2023", true), ("movingai_sample", false)] {
             let mut paper = Paper::load(&root.join("experiments").join(name), &inputs).unwrap();
             paper.claims.clear();

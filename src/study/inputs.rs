@@ -1,17 +1,44 @@
 //! Where input files named by specs are found.
 
 use base::file::missing;
+use std::any::{Any, TypeId};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
 
 /// Where input files named by specs are looked for, in order.
 #[derive(Debug, Clone, Default)]
 pub struct Inputs {
     /// Folders that relative paths start from.
     pub roots: Vec<PathBuf>,
+    read: Arc<Mutex<BTreeMap<(TypeId, String), Arc<dyn Any + Send + Sync>>>>,
 }
 
 impl Inputs {
+    /// Those below `roots`, of which nothing was read yet.
+    pub fn below(roots: Vec<PathBuf>) -> Self {
+        Self { roots, read: Arc::default() }
+    }
+
+    /// What `read` makes of the files and settings that `from` names, read once: many problems name the same robot and scene.
+    ///
+    /// # Errors
+    /// Those of `read`; nothing is remembered then.
+    pub(crate) fn once<T, E>(&self, from: String, read: impl FnOnce() -> Result<T, E>) -> Result<T, E>
+    where
+        T: Clone + Send + Sync + 'static,
+    {
+        let known = || self.read.lock().expect("nothing panics that holds it");
+        let key = (TypeId::of::<T>(), from);
+        if let Some(found) = known().get(&key).and_then(|found| found.downcast_ref::<T>()) {
+            return Ok(found.clone());
+        }
+        let found = read()?;
+        known().insert(key, Arc::new(found.clone()));
+        Ok(found)
+    }
+
     /// The first existing file called `name` below the roots.
     ///
     /// # Errors
@@ -67,5 +94,25 @@ impl Inputs {
     pub fn spelled(&self, path: &Path) -> String {
         let below = self.roots.iter().find_map(|root| path.strip_prefix(root).ok());
         below.unwrap_or(path).display().to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_once_for_each_kind_of_value_and_a_failure_is_not_remembered() {
+        let inputs = Inputs::below(Vec::new());
+        let read = |from: &str, answer: Result<u8, ()>| inputs.once(from.to_owned(), || answer);
+        assert_eq!(read("arm", Err(())), Err(()));
+        assert_eq!(read("arm", Ok(1)), Ok(1));
+        assert_eq!(read("arm", Ok(2)), Ok(1), "it was read again");
+        assert_eq!(read("arm, longer", Ok(3)), Ok(3));
+        assert_eq!(
+            inputs.clone().once("arm".to_owned(), || Ok::<u16, ()>(4)),
+            Ok(4),
+            "another kind of value"
+        );
     }
 }

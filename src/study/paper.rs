@@ -130,7 +130,10 @@ impl Study {
         } else {
             Shared::default()
         };
-        let study = Self::gather(&Document::open(path)?, &shared, inputs, &mut faults)?;
+        let mut study = Self::gather(&Document::open(path)?, &shared, inputs, &mut faults)?;
+        if let Some(study) = &mut study {
+            study.build(inputs, &mut faults)?;
+        }
         match study {
             Some(study) if faults.is_empty() => Ok(study),
             _ => Err(faults.error().into()),
@@ -247,12 +250,25 @@ impl Paper {
     /// A missing folder or file, and everything that [`Study::load`] refuses; claims named twice, inventory rows that
     /// name what does not exist, gaps in the inventory's numbering.
     pub fn load(folder: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
+        Self::read(folder, inputs, true)
+    }
+
+    /// The same as it is written, for those who list it: nothing that its studies name is built, so that settings may be wrong
+    /// and queries are unknown.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load), but for what building would show.
+    pub fn outline(folder: &Path, inputs: &Inputs) -> Result<Self, StudyError> {
+        Self::read(folder, inputs, false)
+    }
+
+    fn read(folder: &Path, inputs: &Inputs, builds: bool) -> Result<Self, StudyError> {
         let mut faults = Faults::default();
         let schema = |kind: &str| match kind {
             "paper" => (*FILE.schema()).clone(),
             other => files::schema(other),
         };
-        let paper = Self::gather(folder, inputs, &schema, &mut faults)?;
+        let paper = Self::gather_all(folder, (inputs, builds), &schema, &mut faults)?;
         match paper {
             Some(paper) if faults.is_empty() => Ok(paper),
             _ => Err(faults.error().into()),
@@ -267,6 +283,15 @@ impl Paper {
     pub fn gather(
         folder: &Path,
         inputs: &Inputs,
+        schema: &dyn Fn(&str) -> Value,
+        faults: &mut Faults,
+    ) -> Result<Option<Self>, StudyError> {
+        Self::gather_all(folder, (inputs, true), schema, faults)
+    }
+
+    fn gather_all(
+        folder: &Path,
+        (inputs, builds): (&Inputs, bool),
         schema: &dyn Fn(&str) -> Value,
         faults: &mut Faults,
     ) -> Result<Option<Self>, StudyError> {
@@ -293,7 +318,10 @@ impl Paper {
             let Some(own) = faults.keep(Document::open(path)) else { continue };
             match files::kind_of(&own, &document) {
                 files::STUDY => {
-                    let study = Study::gather(&own, &shared, inputs, faults)?;
+                    let mut study = Study::gather(&own, &shared, inputs, faults)?;
+                    if let Some(study) = study.as_mut().filter(|_| builds) {
+                        study.build(inputs, faults)?;
+                    }
                     if study.as_ref().is_none_or(|study| study.contenders.is_empty()) && faults.are_in(path) {
                         faults.unread("contender");
                     }

@@ -157,7 +157,7 @@ impl Toy {
     /// What its explorations amount to.
     fn stored(&self) -> Stored {
         let folder = self.0.at("toy");
-        let paper = Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap();
+        let paper = Paper::load(&folder, &Inputs::below(vec![folder.clone()])).unwrap();
         Stored::read(&paper, &self.0.at(RUNS), &Polylines::default()).unwrap()
     }
 
@@ -518,7 +518,7 @@ fn another_metric_contender_or_group_is_not_explored_and_the_claim_is_named() {
 fn counts_of_searches_that_left_refused_paths_out_are_explored_again() {
     let toy = Toy::new(&[("line_of_sight = \"exact_interior\"", "line_of_sight = \"bresenham\"")]);
     let folder = toy.0.at("toy");
-    let paper = Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap();
+    let paper = Paper::load(&folder, &Inputs::below(vec![folder.clone()])).unwrap();
     let mut stored = Estimates::read(&paper, &toy.0.at(RUNS)).unwrap();
     assert_eq!(toy.verdicts().explored.unwrap().stale, [""; 0]);
     // As it would be named if solved trials alone were counted: `shorter` looks at refused paths, `fewer` does not.
@@ -551,7 +551,7 @@ fn estimates_that_were_edited_or_are_another_papers_are_refused_until_they_are_m
         refused(sealed);
     }
     let folder = toy.0.at("toy");
-    let paper = Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap();
+    let paper = Paper::load(&folder, &Inputs::below(vec![folder.clone()])).unwrap();
     fs::write(&path, &whole).unwrap();
     let stored = Estimates::read(&paper, &toy.0.at(RUNS)).unwrap();
     Estimates { paper: "another".to_owned(), ..stored }.write(&toy.0.at(RUNS)).unwrap();

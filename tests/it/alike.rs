@@ -119,7 +119,7 @@ fn bench(text: &str) -> Bench {
 fn study(text: &str) -> Study {
     let bench = bench(text);
     let folder = bench.at("mini");
-    let paper = Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap();
+    let paper = Paper::load(&folder, &Inputs::below(vec![folder.clone()])).unwrap();
     paper.study("sides").unwrap().clone()
 }
 

@@ -58,7 +58,7 @@ values = [60, 120]
 /// The records of the study run with so many threads, by file.
 fn records(home: &Path, threads: usize) -> Vec<(String, Vec<u8>)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).to_owned();
-    let inputs = Inputs { roots: vec![root] };
+    let inputs = Inputs::below(vec![root]);
     let study = Study::load(&home.join("p").join("s.toml"), &inputs).unwrap();
     let folder = home.join(format!("runs{threads}"));
     let points = study.trial_interpretations().unwrap();

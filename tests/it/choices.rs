@@ -13,7 +13,7 @@ use toml::{Table, Value};
 /// The paper in `folder` of a bench, as the program reads it.
 fn loaded(bench: &Bench, folder: &str) -> Paper {
     let folder = bench.at(folder);
-    Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap()
+    Paper::load(&folder, &Inputs::below(vec![folder.clone()])).unwrap()
 }
 
 /// The choices that the study called `name` inherits, each with whether its trials depend on it.
@@ -109,7 +109,7 @@ fn an_option_is_laid_over_the_files_of_a_robot_and_of_its_scene() {
         let taken =
             [("tool", option), ("wall", wall)].map(|(id, option)| (id.to_owned(), option.to_owned())).into();
         let interpretation = Interpretation::new(&study.choices, &taken).unwrap();
-        let inputs = Inputs { roots: vec![bench.at("arm")] };
+        let inputs = Inputs::below(vec![bench.at("arm")]);
         let preprocessing = study.groups[0]
             .family(&study.groups[0].points[0], &interpretation, &inputs)
             .unwrap()

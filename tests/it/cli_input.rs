@@ -344,3 +344,15 @@ fn a_contender_that_asks_for_more_of_a_roadmap_than_there_is_is_refused_before_a
     bench.edit("mini/plane.toml", "[budget]", &sweep("20, 30"));
     bench.done(&["check", "./mini"]);
 }
+
+#[test]
+fn a_list_takes_studies_as_they_are_written_and_one_alone_is_built() {
+    let bench = Bench::new();
+    fs::create_dir(bench.at("experiments")).unwrap();
+    fs::rename(bench.at("mini"), bench.at("experiments/mini")).unwrap();
+    bench.edit("experiments/mini/draws.toml", "size_cells = [12, 12]", "size_cells = [0, 12]");
+    assert!(bench.done(&["list", "studies"]).contains("  mini/draws "));
+    let output = bench.run(&["list", "studies", "mini/draws"]);
+    assert_eq!(output.code, Some(2), "{}", output.out);
+    assert!(output.err.contains("size_cells"), "{}", output.err);
+}

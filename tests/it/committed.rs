@@ -48,7 +48,7 @@ fn stored_records_are_the_bytes_that_this_program_would_write_of_them() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut studies = 0;
     for folder in fs::read_dir(root.join("experiments")).unwrap().map(|entry| entry.unwrap().path()) {
-        let inputs = Inputs { roots: vec![folder.clone(), root.to_owned()] };
+        let inputs = Inputs::below(vec![folder.clone(), root.to_owned()]);
         let paper = Paper::load(&folder, &inputs).unwrap();
         let runs = root.join("data/runs").join(&paper.id);
         for study in &paper.studies {

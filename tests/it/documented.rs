@@ -44,7 +44,7 @@ fn committed_papers() -> Vec<Paper> {
     let mut folders: Vec<PathBuf> = folders.map(|entry| entry.unwrap().path()).collect();
     folders.sort();
     let load = |folder: &PathBuf| {
-        Paper::load(folder, &Inputs { roots: vec![folder.clone(), root().to_owned()] }).unwrap()
+        Paper::load(folder, &Inputs::below(vec![folder.clone(), root().to_owned()])).unwrap()
     };
     folders.iter().map(load).collect()
 }
@@ -55,7 +55,7 @@ fn new_papers() -> Vec<Paper> {
     let load = |template: &str| {
         bench.done(&["new", template, "--from", template]);
         let folder = bench.at(template);
-        Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap()
+        Paper::load(&folder, &Inputs::below(vec![folder.clone()])).unwrap()
     };
     ["arm", "cell", "grid"].map(load).into()
 }
@@ -77,7 +77,7 @@ fn every_key_of_everything_registered_has_a_meaning() {
 
 #[test]
 fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
-    let inputs = Inputs { roots: vec![root().to_owned(), root().join("experiments/zhang")] };
+    let inputs = Inputs::below(vec![root().to_owned(), root().join("experiments/zhang")]);
     for item in schema::planners().iter().chain(&schema::stages()) {
         let entry = study::planner::find(item.name).unwrap();
         let built = match entry.build {
@@ -98,7 +98,7 @@ fn every_example_of_a_planner_a_stage_a_family_and_a_task_builds() {
 
 /// What the example of every family poses.
 fn posed() -> Vec<(Preprocessing, Vec<Query>)> {
-    let inputs = Inputs { roots: vec![root().to_owned(), root().join("experiments/zhang")] };
+    let inputs = Inputs::below(vec![root().to_owned(), root().join("experiments/zhang")]);
     let pose = |item: Item| {
         let family = (family::find(item.name).unwrap().build)(&example(&item), &inputs).unwrap();
         // A set has its problems from 0 on.

@@ -14,7 +14,7 @@ fn build(name: &str, over: &str) -> Result<Box<dyn Family>, StudyError> {
     let table = |text: &str| toml::from_str(text).unwrap();
     let settings = Settings::composed("a test", table(entry.example)).overlaid(&table(over), "a test");
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).to_owned();
-    (entry.build)(&settings, &Inputs { roots: vec![root.join("experiments/zhang"), root] })
+    (entry.build)(&settings, &Inputs::below(vec![root.join("experiments/zhang"), root]))
 }
 
 /// What each family is built from so that both ends of two queries are drawn, the goal within limits; and its limits, by the

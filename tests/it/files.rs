@@ -239,7 +239,7 @@ fn a_page_shows_a_slide_as_its_length_and_a_whole_turn_of_an_endless_joint_as_no
         bench.write("arm.json", arm.problem.as_bytes());
         let group: toml::Table = toml::from_str(&joint_group("arm")).unwrap();
         let settings = group["problems"][0]["settings"].as_table().unwrap().clone();
-        let inputs = Inputs { roots: vec![bench.at("")] };
+        let inputs = Inputs::below(vec![bench.at("")]);
         let build = family::find("joint_queries").unwrap().build;
         let family = build(&Settings::composed("an arm", settings), &inputs).unwrap();
         family.stance(&q).unwrap().tip_mm

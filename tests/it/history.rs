@@ -50,7 +50,7 @@ fn bench() -> Bench {
 
 /// What each claim means, by id.
 fn hashes(bench: &Bench) -> BTreeMap<String, String> {
-    let paper = Paper::load(&bench.at("mini"), &Inputs { roots: vec![bench.at("mini")] }).unwrap();
+    let paper = Paper::load(&bench.at("mini"), &Inputs::below(vec![bench.at("mini")])).unwrap();
     paper.claims.iter().map(|claim| (claim.id.clone(), hash(&paper, claim))).collect()
 }
 

@@ -13,7 +13,7 @@ fn no_study_of_a_committed_paper_comes_near_the_limits() {
     let mut most = 0.0_f64;
     for name in committed() {
         let folder = root.join("experiments").join(name);
-        let inputs = Inputs { roots: vec![folder.clone(), root.to_owned()] };
+        let inputs = Inputs::below(vec![folder.clone(), root.to_owned()]);
         for study in Paper::load(&folder, &inputs).unwrap().studies {
             let work = study.work(&inputs).unwrap();
             println!("{} {} {work:?}", study.paper, study.name);
@@ -60,7 +60,7 @@ fn a_study_beyond_the_limits_is_refused_by_every_command_that_runs_and_runs_wher
 #[test]
 fn the_lattices_of_arms_and_among_polyhedra_count_as_work() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let inputs = Inputs { roots: vec![root.to_owned()] };
+    let inputs = Inputs::below(vec![root.to_owned()]);
     for (family, over, cells) in [
         ("arm_workspace", "x_cm = [-50, 50]\ny_cm = [0, 50]\nstep_cm = 0.5", 201 * 101),
         ("random_polyhedra", "side_cm = 100\nstep_cm = 0.5", 201 * 201 * 201),
@@ -92,7 +92,7 @@ fn trees_over_problems_without_a_roadmap_count_as_large_as_the_budget_lets_them_
     bench.write("files/set.toml", files::study(&group, &contender).as_bytes());
     let folder = bench.at("files");
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).to_owned();
-    let inputs = Inputs { roots: vec![folder.clone(), root] };
+    let inputs = Inputs::below(vec![folder.clone(), root]);
     let work = Paper::load(&folder, &inputs).unwrap().studies[0].work(&inputs).unwrap();
     assert!(work.seconds > 0.1 && work.bytes > 1e6, "the budget is 100 000: {work:?}");
 }

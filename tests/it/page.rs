@@ -75,7 +75,7 @@ fn a_page_begins_with_the_finding_the_headline_claims_and_the_counts() {
     let text = fs::read_to_string(page("zhang")).unwrap();
     let (head, _) = text.split_once("<nav").unwrap();
     let verdicts = Verdicts::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data/runs/zhang")).unwrap();
-    let inputs = Inputs { roots: vec![PathBuf::from(env!("CARGO_MANIFEST_DIR"))] };
+    let inputs = Inputs::below(vec![PathBuf::from(env!("CARGO_MANIFEST_DIR"))]);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments/zhang");
     let paper = Paper::load(&folder, &inputs).unwrap();
     assert!(head.contains(&format!("<strong>{}", &paper.report.finding.as_ref().unwrap()[..20])), "{head}");

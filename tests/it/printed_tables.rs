@@ -113,7 +113,7 @@ fn forty_printed_cells_in_eighty_lines_of_toml_are_checked_run_and_judged() {
 /// The paper of `bench` in the folder `name`.
 fn loaded(bench: &Bench, name: &str) -> Paper {
     let folder = bench.at(name);
-    Paper::load(&folder, &Inputs { roots: vec![folder.clone()] }).unwrap()
+    Paper::load(&folder, &Inputs::below(vec![folder.clone()])).unwrap()
 }
 
 #[test]
@@ -351,7 +351,7 @@ fn no_printed_number_of_a_committed_paper_is_claimed_twice_of_one_selection() {
     let mut twice = Vec::new();
     for name in crate::paper::committed() {
         let folder = root.join("experiments").join(&name);
-        let paper = Paper::load(&folder, &Inputs { roots: vec![root.to_owned()] }).unwrap();
+        let paper = Paper::load(&folder, &Inputs::below(vec![root.to_owned()])).unwrap();
         let mut seen = BTreeMap::new();
         for claim in paper.claims.iter().filter(|claim| claim.printed.is_some()) {
             for (role, _, settings) in claim.tests().filter(|(role, ..)| *role == TestRole::Decides) {

@@ -118,7 +118,7 @@ fn used_criteria() -> BTreeMap<String, usize> {
     let mut used = BTreeMap::new();
     for name in crate::paper::committed() {
         let folder = root.join("experiments").join(name);
-        let inputs = study::Inputs { roots: vec![folder.clone(), root.to_owned()] };
+        let inputs = study::Inputs::below(vec![folder.clone(), root.to_owned()]);
         let paper = Paper::load(&folder, &inputs).unwrap();
         for (how, name, _) in paper.claims.iter().flat_map(Claim::tests) {
             *used.entry(name.to_owned()).or_default() += usize::from(how != TestRole::Shown);

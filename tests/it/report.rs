@@ -19,7 +19,7 @@ fn read(path: &Path) -> String {
 
 fn loaded(name: &str) -> Paper {
     let folder = root().join("experiments").join(name);
-    Paper::load(&folder, &Inputs { roots: vec![folder.clone(), root().to_owned()] }).unwrap()
+    Paper::load(&folder, &Inputs::below(vec![folder.clone(), root().to_owned()])).unwrap()
 }
 
 /// Where the links and images of a page lead.

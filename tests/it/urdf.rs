@@ -250,7 +250,7 @@ fn an_srdf_file_decides_which_links_of_a_six_axis_robot_are_held_against_each_ot
         let settings = Settings::composed("the cell", toml::from_str(entry.example).unwrap());
         let changes = format!("queries = 2\nsrdf = 'ur5.srdf'\n{changes}");
         let settings = settings.overlaid(&toml::from_str(&changes).unwrap(), "the test");
-        let inputs = Inputs { roots: vec![root().to_owned(), folder.path().to_owned()] };
+        let inputs = Inputs::below(vec![root().to_owned(), folder.path().to_owned()]);
         (entry.build)(&settings, &inputs).map_err(|error| error.to_string())
     };
     let family = built("robot = 'data/robots/ur5.urdf'").unwrap();

@@ -28,8 +28,10 @@ impl<'a> Node<'a> {
     fn resolved(self) -> Self {
         let Some(name) = self.text("$ref") else { return self };
         let name = name.strip_prefix("#/$defs/").expect("our schemas refer to their own definitions alone");
-        let value =
-            self.root.get("$defs").and_then(|all| all.get(name)).expect("what is referred to is defined");
+        let value = self.root["$defs"]
+            .as_object()
+            .and_then(|all| all.get(name))
+            .expect("what is referred to is defined");
         Self { value, ..self }.resolved()
     }
 
@@ -38,7 +40,7 @@ impl<'a> Node<'a> {
     }
 
     pub(super) fn get(self, key: &str) -> Option<&'a Value> {
-        self.value.get(key)
+        self.value.as_object()?.get(key)
     }
 
     pub(super) fn text(self, key: &str) -> Option<&'a str> {
@@ -65,7 +67,7 @@ impl<'a> Node<'a> {
     }
 
     pub(super) fn property(self, key: &str) -> Option<Self> {
-        let value = self.get("properties")?.get(key)?;
+        let value = self.get("properties")?.as_object()?.get(key)?;
         Some(self.at(value))
     }
 

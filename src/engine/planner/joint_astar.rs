@@ -107,16 +107,21 @@ fn greatest_difference(a: &Joints, b: &Joints) -> f64 {
 }
 
 impl Space<'_> {
-    /// Whether nothing touches from `a` to `b`, `a` left out.
+    /// Whether the arm can stand at `q` with nothing touching.
+    fn is_free(&self, q: &Joints) -> bool {
+        self.arm.arm().chain().allows(q) && self.is_apart(q)
+    }
+
+    fn is_apart(&self, q: &Joints) -> bool {
+        self.arm.is_clear(q, self.world.bodies(), LEAST_CM, false, &self.apart)
+    }
+
+    /// Whether nothing touches between `a` and `b`, both left out.
     fn is_clear(&self, a: &Joints, b: &Joints) -> bool {
-        if !self.arm.arm().chain().allows(b) {
-            return false;
-        }
         let count = (greatest_difference(a, b) / CHECK_RAD).ceil().max(1.0) as u32;
-        (1..=count).rev().all(|k| {
+        (1..count).rev().all(|k| {
             let share = f64::from(k) / f64::from(count);
-            let q = std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share);
-            self.arm.is_clear(&q, self.world.bodies(), LEAST_CM, false, &self.apart)
+            self.is_apart(&std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share))
         })
     }
 }
@@ -141,7 +146,13 @@ impl Graph for Space<'_> {
             if !self.states.borrow().lowers(&to, reached + length, &mut around) {
                 continue;
             }
-            if !self.is_clear(&here, &angles(&self.start, &to, self.delta)) {
+            let there = angles(&self.start, &to, self.delta);
+            // Many moves end at one cell: whether the arm can stand there is asked once.
+            if !self.states.borrow().is_reached(&to, &mut around) && !self.is_free(&there) {
+                self.states.borrow_mut().refuse(&to, &mut around);
+                continue;
+            }
+            if !self.is_clear(&here, &there) {
                 continue;
             }
             let number = self.states.borrow_mut().reach(to, reached + length, &mut around);
@@ -207,7 +218,9 @@ impl Planner for JointAstar {
         let probe = space(Vec::new());
         let at = |node: u32| angles(&start, &states.borrow().cell(node), delta);
         let h = |node: u32| greatest_difference(&at(node), &goal);
-        let is_goal = |node: u32| h(node) <= delta * self.goal_steps && probe.is_clear(&at(node), &goal);
+        let can_end = probe.is_free(&goal);
+        let is_goal =
+            |node: u32| can_end && h(node) <= delta * self.goal_steps && probe.is_clear(&at(node), &goal);
         let terms = SideInputs {
             graph: &mut graph,
             estimate: &Combined { h, combine: sum },

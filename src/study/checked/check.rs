@@ -1,6 +1,6 @@
 //! Checks of a study whose names were looked up: everything is built once, under every single option.
 
-use super::super::contender::Swept;
+use super::super::contender::{Pipelines, Swept};
 use super::super::error::StudyError;
 use super::super::family::Family;
 use super::super::group::Families;
@@ -20,8 +20,7 @@ use std::sync::Arc;
 use toml::Table;
 
 impl Study {
-    /// Builds everything once under every single option, so that nothing can fail for its settings later. What cannot be
-    /// built is left out.
+    /// Refuses what its text alone shows to be wrong. What no record could name is left out.
     pub(super) fn check(&mut self, inputs: &Inputs, faults: &mut Faults) -> Result<(), StudyError> {
         let path = self.document.path();
         let absolute = fs::canonicalize(path).map_err(StudyError::io(path, "opening the study"))?;
@@ -36,24 +35,33 @@ impl Study {
         self.check_sweeps(faults);
         self.check_what_groups_lay(faults);
         self.check_what_defaults_hide(inputs, faults);
+        Ok(())
+    }
+
+    /// Builds everything once under every single option, so that nothing can fail for its settings later, and says of its groups
+    /// what only built families know.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub(crate) fn build(&mut self, inputs: &Inputs, faults: &mut Faults) -> Result<(), StudyError> {
         let mut known = Families::default();
-        if let Some(points) = keep(faults, self.trial_interpretations())? {
-            for point in &points {
-                self.check_point(point, inputs, &mut known, faults)?;
-            }
-            let families = self.check_ends(&points[0], inputs, &mut known, faults)?;
-            self.check_sizes(&families, faults);
-            check_query_names(&families, faults);
-            let built: Vec<(String, Arc<dyn Family>)> =
-                families.iter().map(|(group, family)| (group.label.clone(), family.clone())).collect();
-            for group in &mut self.groups {
-                for (_, family) in built.iter().filter(|(label, _)| *label == group.label) {
-                    group.is_drawn |= family.draws_ends();
-                    group.noun = family.instances().unwrap_or(group.noun);
-                    for query in family.queries() {
-                        if !group.queries.contains(&query.name) {
-                            group.queries.push(query.name.clone());
-                        }
+        let mut pipelines = Pipelines::default();
+        let Some(points) = keep(faults, self.trial_interpretations())? else { return Ok(()) };
+        for point in &points {
+            self.check_point(point, inputs, (&mut known, &mut pipelines), faults)?;
+        }
+        let families = self.check_ends(&points[0], inputs, &mut known, faults)?;
+        self.check_sizes(&families, faults);
+        check_query_names(&families, faults);
+        let built: Vec<(String, Arc<dyn Family>)> =
+            families.iter().map(|(group, family)| (group.label.clone(), family.clone())).collect();
+        for group in &mut self.groups {
+            for (_, family) in built.iter().filter(|(label, _)| *label == group.label) {
+                group.is_drawn |= family.draws_ends();
+                group.noun = family.instances().unwrap_or(group.noun);
+                for query in family.queries() {
+                    if !group.queries.contains(&query.name) {
+                        group.queries.push(query.name.clone());
                     }
                 }
             }
@@ -126,7 +134,7 @@ impl Study {
         &self,
         point: &Interpretation,
         inputs: &Inputs,
-        known: &mut Families,
+        (known, pipelines): (&mut Families, &mut Pipelines),
         faults: &mut Faults,
     ) -> Result<(), StudyError> {
         let mut families: Vec<(&Group, Arc<dyn Family>)> = Vec::new();
@@ -140,9 +148,10 @@ impl Study {
         }
         let (own, shared): (Vec<_>, Vec<_>) =
             families.into_iter().partition(|(group, _)| group.stage.is_some());
-        self.check_contenders(point, &shared, faults);
+        self.check_contenders(point, &shared, pipelines, faults);
         for (group, family) in own {
-            self.check_contenders(&group.seen_by_contenders(point), &[(group, family)], faults);
+            let seen = group.seen_by_contenders(point);
+            self.check_contenders(&seen, &[(group, family)], pipelines, faults);
         }
         Ok(())
     }
@@ -152,12 +161,15 @@ impl Study {
         &self,
         point: &Interpretation,
         families: &[(&Group, Arc<dyn Family>)],
+        pipelines: &mut Pipelines,
         faults: &mut Faults,
     ) {
+        let sweeps = self.contender_points();
         for contender in &self.contenders {
-            for sweep in self.contender_points() {
-                let Some(pipeline) = faults.keep(contender.pipeline(point, &sweep)) else { continue };
-                faults.keep(check_extent(contender, &sweep, pipeline.planner.asks(), families));
+            for sweep in &sweeps {
+                let built = pipelines.pipeline(contender, point, sweep);
+                let Some(pipeline) = faults.keep(built) else { continue };
+                faults.keep(check_extent(contender, sweep, pipeline.planner.asks(), families));
                 if contender.repeats > 1 && !pipeline.planner.draws() {
                     let message = format!(
                         "`repeats` is {}, and contender `{}` draws nothing at random; 1 is accepted",

@@ -17,8 +17,8 @@ use std::sync::Arc;
 use toml::Table;
 
 impl Study {
-    /// The study in `document`, as far as it can be read, with what its paper says for all studies (`shared`). Every fault goes to
-    /// `faults`.
+    /// The study in `document`, as far as it can be read, with what its paper says for all studies (`shared`). Every fault in its text
+    /// goes to `faults`. Nothing is built yet.
     ///
     /// # Errors
     /// What the system refuses.

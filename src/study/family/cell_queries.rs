@@ -252,7 +252,7 @@ impl CellQueries {
         }
         let locate = |name| inputs.locate(name).map_err(|message| settings.error_at("srdf", message));
         let srdf = self.srdf.as_deref().map(locate).transpose()?;
-        let robot = load_robot(settings, file, self.robot_with.as_ref(), srdf.as_deref())?;
+        let robot = load_robot((settings, inputs), file, self.robot_with.as_ref(), srdf.as_deref())?;
         let Some(tool_mm) = self.tool_mm else { return Ok(robot) };
         settings.accept_without("tool_mm", seems_in_metres("tool_mm", tool_mm))?;
         robot
@@ -311,7 +311,7 @@ impl Posed {
         let robot = faults
             .keep(input(settings, inputs, "robot", &read.robot, |file| read.robot(settings, inputs, file)));
         let scene = faults.keep(input(settings, inputs, "scene", &read.scene, |file| {
-            load_scene(settings, file, read.scene_with.as_ref(), |document| {
+            load_scene((settings, inputs), file, read.scene_with.as_ref(), |document| {
                 let drawn = DrawnScene::read(document)?;
                 let middle = drawn.as_ref().map(DrawnScene::middle);
                 Ok((Scene::parse(middle.as_ref().unwrap_or(document))?, drawn))
@@ -321,8 +321,10 @@ impl Posed {
         let placed = match &read.queries {
             Queries::Drawn(_) => None,
             Queries::File(file) => faults.keep(input(settings, inputs, "queries", file, |file| {
-                let document = Document::open(file)?;
-                Ok((read_queries(&document)?, document))
+                inputs.once(format!("{file:?}"), || {
+                    let document = Document::open(file)?;
+                    Ok((read_queries(&document)?, document))
+                })
             })),
         };
         let all = robot.zip(scene).zip(drawn);

@@ -17,7 +17,7 @@ const DRAWN: &str = "drawn";
 const TRIES: u32 = 2_000;
 
 /// A scene file with drawn numbers.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct DrawnScene {
     path: PathBuf,
     table: Table,

@@ -30,11 +30,20 @@ pub(super) fn input<T>(
 }
 
 /// The robot in `file`, which the settings name at `robot`, with what they have under `robot_with` laid over the file, and with
-/// what the SRDF file that they name at `srdf` says.
+/// what the SRDF file that they name at `srdf` says; read once.
 ///
 /// # Errors
 /// What is wrong in the file, at its place there; what has no place there or is laid over it, at the key.
 pub(super) fn load_robot(
+    (settings, inputs): (&Settings, &Inputs),
+    file: &Path,
+    with: Option<&Table>,
+    srdf: Option<&Path>,
+) -> Result<Robot, SettingsError> {
+    inputs.once(format!("{file:?} {with:?} {srdf:?}"), || read_robot(settings, file, with, srdf))
+}
+
+fn read_robot(
     settings: &Settings,
     file: &Path,
     with: Option<&Table>,
@@ -58,17 +67,19 @@ pub(super) fn load_robot(
     })
 }
 
-/// What `read` makes of the scene in `file`, with what the settings have under `scene_with` laid over it.
+/// What `read` makes of the scene in `file`, with what the settings have under `scene_with` laid over it; read once.
 ///
 /// # Errors
 /// As [`load_robot`].
-pub(super) fn load_scene<S>(
-    settings: &Settings,
+pub(super) fn load_scene<S: Clone + Send + Sync + 'static>(
+    (settings, inputs): (&Settings, &Inputs),
     file: &Path,
     with: Option<&Table>,
     read: impl FnOnce(&Arc<Document>) -> Result<S, SettingsError>,
 ) -> Result<S, SettingsError> {
-    let Some(with) = with else { return read(&Document::open(file)?) };
-    let document = overlaid(settings, SCENE_WITH, with, file)?;
-    read(&document).map_err(|fault| settings.error_at(SCENE_WITH, fault.message()))
+    inputs.once(format!("{file:?} {with:?}"), || {
+        let Some(with) = with else { return read(&Document::open(file)?) };
+        let document = overlaid(settings, SCENE_WITH, with, file)?;
+        read(&document).map_err(|fault| settings.error_at(SCENE_WITH, fault.message()))
+    })
 }

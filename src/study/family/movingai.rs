@@ -178,7 +178,7 @@ mod tests {
         std::fs::write(folder.path().join("m.map"), map).unwrap();
         std::fs::write(folder.path().join("m.scen"), scenarios).unwrap();
         let table = toml::from_str(&format!("map = 'm.map'\nscenarios = 'm.scen'\n{extra}")).unwrap();
-        let inputs = Inputs { roots: vec![folder.path().to_owned()] };
+        let inputs = Inputs::below(vec![folder.path().to_owned()]);
         (ENTRY.build)(&Settings::composed("a test", table), &inputs).map_err(|e| e.to_string())
     }
 
@@ -263,7 +263,7 @@ mod tests {
         }
         let table = toml::from_str("map = 'none.map'\nscenarios = 'none.scen'").unwrap();
         let error =
-            (ENTRY.build)(&Settings::composed("a test", table), &Inputs { roots: vec!["nowhere".into()] });
+            (ENTRY.build)(&Settings::composed("a test", table), &Inputs::below(vec!["nowhere".into()]));
         let error = error.err().unwrap().to_string();
         assert!(
             error.contains("input file `none.map` does not exist; looked for nowhere/none.map"),

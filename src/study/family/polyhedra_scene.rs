@@ -157,7 +157,7 @@ fn posed(settings: &Settings, inputs: &Inputs) -> Result<Posed, StudyError> {
     let read: SceneSettings = settings.read()?;
     let mut faults = Faults::default();
     let scene = faults.keep(input(settings, inputs, "scene", &read.scene, |file| {
-        load_scene(settings, file, read.scene_with.as_ref(), |document| {
+        load_scene((settings, inputs), file, read.scene_with.as_ref(), |document| {
             let drawn = DrawnScene::read(document)?;
             let middle = drawn.as_ref().map(DrawnScene::middle);
             Ok((parse_scene(middle.as_ref().unwrap_or(document))?, drawn))
@@ -220,7 +220,7 @@ impl SceneSettings {
             }
         };
         input(settings, inputs, "robot", robot, |file| {
-            load_robot(settings, file, self.robot_with.as_ref(), None)
+            load_robot((settings, inputs), file, self.robot_with.as_ref(), None)
         })
         .map(Some)
     }
@@ -384,7 +384,7 @@ mod tests {
         let mut table = PLAIN.parse::<Table>().unwrap();
         table.retain(|key, _| !without.contains(&key));
         table.extend(changes.parse::<Table>().unwrap());
-        let inputs = Inputs { roots: vec![PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))] };
+        let inputs = Inputs::below(vec![PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))]);
         (ENTRY.build)(&Settings::composed("plain", table), &inputs).map_err(|e| e.to_string())
     }
 

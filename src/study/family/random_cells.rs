@@ -173,7 +173,7 @@ mod tests {
         let mut table: toml::Table = toml::from_str(&table).unwrap();
         table.entry("start").or_insert_with(|| toml::Value::from(vec![0, 0]));
         let settings = Settings::composed("a test", table);
-        (ENTRY.build)(&settings, &Inputs { roots: Vec::new() }).map_err(|e| e.to_string())
+        (ENTRY.build)(&settings, &Inputs::below(Vec::new())).map_err(|e| e.to_string())
     }
 
     #[test]
@@ -230,7 +230,7 @@ mod tests {
             "size_cells = 3\nstart = [0, 0]\ngoal = [3, 4]\nblocked_share = 0.1\nvertices = 'corners'\n";
         let table = toml::from_str(&format!("{at_corners}corner_rule = 'forbid_any'")).unwrap();
         let settings = Settings::composed("a test", table);
-        let error = (ENTRY.build)(&settings, &Inputs { roots: Vec::new() }).err().unwrap().to_string();
+        let error = (ENTRY.build)(&settings, &Inputs::below(Vec::new())).err().unwrap().to_string();
         for message in [
             "corner_rule = \"allow\" is accepted",
             "goal is [3, 4], outside the map; corners from [0, 0] to [3, 3] are accepted",

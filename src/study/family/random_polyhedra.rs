@@ -270,7 +270,7 @@ mod tests {
     fn build(more: &str) -> Result<Box<dyn Family>, String> {
         let table = format!("{PLAIN}{more}").parse::<Table>().unwrap();
         let settings = Settings::composed("plain", table);
-        (ENTRY.build)(&settings, &Inputs { roots: Vec::new() }).map_err(|e| e.to_string())
+        (ENTRY.build)(&settings, &Inputs::below(Vec::new())).map_err(|e| e.to_string())
     }
 
     #[test]

@@ -79,7 +79,7 @@ impl House {
     /// Runs the study `spec` of the paper whose folder is spelled `folder`, with the records in `out`.
     fn run_in(&self, folder: &Path, spec: &str, out: &str) -> Report {
         fs::write(self.at("p/s.toml"), spec).unwrap();
-        let inputs = Inputs { roots: vec![folder.to_owned(), PathBuf::new()] };
+        let inputs = Inputs::below(vec![folder.to_owned(), PathBuf::new()]);
         let paper = Paper::load(folder, &inputs).unwrap();
         let points = paper.studies[0].trial_interpretations().unwrap();
         let options = Options {
@@ -103,7 +103,7 @@ impl House {
 
     /// Puts `records` in the place of what a run of [`STUDY`] left in `folder`.
     fn rewrite(&self, folder: &Path, records: &Records) {
-        let paper = Paper::load(&self.at("p"), &Inputs { roots: vec![self.at("p")] }).unwrap();
+        let paper = Paper::load(&self.at("p"), &Inputs::below(vec![self.at("p")])).unwrap();
         let study = &paper.studies[0];
         let columns = Columns::new(study);
         let mut staged = Staged::default();

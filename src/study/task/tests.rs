@@ -42,7 +42,7 @@ settings = { side_cm = 50, step_cm = 10, count = [1, 1], size_cm = [8, 20], shap
 
 /// Every file of facts that the study `p/s.toml` leaves when it runs on `threads`.
 fn facts(folder: &Path, threads: usize) -> BTreeMap<String, Vec<u8>> {
-    let inputs = Inputs { roots: vec![folder.join("p")] };
+    let inputs = Inputs::below(vec![folder.join("p")]);
     let paper = Paper::load(&folder.join("p"), &inputs).unwrap();
     let points = paper.studies[0].trial_interpretations().unwrap();
     let out = folder.join(threads.to_string());
@@ -123,7 +123,7 @@ fn a_task_gives_the_same_bytes_at_any_number_of_threads() {
 fn single_trials_are_run_again_without_the_others_and_give_the_stored_rows() {
     let folder = folder(STUDY);
     facts(folder.path(), 2);
-    let inputs = Inputs { roots: vec![folder.path().join("p")] };
+    let inputs = Inputs::below(vec![folder.path().join("p")]);
     let paper = Paper::load(&folder.path().join("p"), &inputs).unwrap();
     let study = &paper.studies[0];
     let runs = folder.path().join("2");
@@ -153,7 +153,7 @@ fn a_rerun_names_trials_that_come_out_otherwise_and_those_that_come_no_more() {
         (STUDY.replace("label = '", "label = 'other "), 2),
     ] {
         fs::write(&file, edited).unwrap();
-        let inputs = Inputs { roots: vec![folder.path().join("p")] };
+        let inputs = Inputs::below(vec![folder.path().join("p")]);
         let paper = Paper::load(&folder.path().join("p"), &inputs).unwrap();
         let again = rerun(&paper.studies[0], &inputs, &folder.path().join("2"), 1_000, 1).unwrap();
         let differ = again.differ.len();
@@ -164,7 +164,7 @@ fn a_rerun_names_trials_that_come_out_otherwise_and_those_that_come_no_more() {
 #[test]
 fn units_that_share_what_is_prepared_give_what_each_gives_alone() {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
-    let inputs = Inputs { roots: vec![root.to_owned()] };
+    let inputs = Inputs::below(vec![root.to_owned()]);
     let paper = Paper::load(&root.join("experiments/fu2018"), &inputs).unwrap();
     for name in ["particle", "stages"] {
         let study = paper.study(name).unwrap();
@@ -185,7 +185,7 @@ fn units_that_share_what_is_prepared_give_what_each_gives_alone() {
 #[test]
 fn interpretations_of_one_map_give_what_each_gives_alone_and_share_contenders_that_they_leave_as_they_are() {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
-    let inputs = Inputs { roots: vec![root.to_owned()] };
+    let inputs = Inputs::below(vec![root.to_owned()]);
     let paper = Paper::load(&root.join("experiments/theta"), &inputs).unwrap();
     let study = paper.study("replays").unwrap();
     let points = [None, Some(("smoothing", "goal")), Some(("ties", "larger_g"))].map(|other| {

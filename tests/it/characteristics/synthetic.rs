@@ -58,7 +58,7 @@ impl Synthetic {
         let paper = format!("[source]\ntitle = \"A synthetic paper\"\nours = true\n{claims}");
         fs::write(place.join("paper.toml"), paper).unwrap();
         fs::write(place.join("drawn.toml"), study(made)).unwrap();
-        let inputs = Inputs { roots: vec![Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()] };
+        let inputs = Inputs::below(vec![Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()]);
         let paper = Paper::load(&place, &inputs).unwrap_or_else(|error| panic!("{error}\n{claims}"));
         Self { _folder: folder, paper }
     }

@@ -124,7 +124,7 @@ fn world(sample: &Sample, number: u64) -> World {
     let entry = family::find(sample.family).unwrap();
     let settings = Settings::composed("the law", toml::from_str(entry.example).unwrap());
     let settings = settings.overlaid(&toml::from_str(sample.over).unwrap(), "the law");
-    let inputs = Inputs { roots: vec![PathBuf::from(env!("CARGO_MANIFEST_DIR"))] };
+    let inputs = Inputs::below(vec![PathBuf::from(env!("CARGO_MANIFEST_DIR"))]);
     let family = (entry.build)(&settings, &inputs).unwrap_or_else(|e| panic!("{}: {e}", sample.family));
     let mut draws =
         (0..50).filter_map(|draw| family.prepare(seed::derive(number, &["law", &draw.to_string()])).ok());

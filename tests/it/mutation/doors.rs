@@ -248,7 +248,7 @@ fn files<'a>(folder: &'a Path, robots: &'a [Robot; 2]) -> Vec<Door<'a>> {
 
 /// The specs of a small paper, which is read whole.
 fn specs(paper: &Path) -> Vec<Door<'_>> {
-    let inputs = move || Inputs { roots: vec![paper.to_owned()] };
+    let inputs = move || Inputs::below(vec![paper.to_owned()]);
     let load = move |_: &Path| {
         let loaded = Paper::load(paper, &inputs()).map_err(|error| error.to_string())?;
         validate(&loaded)

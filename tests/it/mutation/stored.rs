@@ -58,7 +58,7 @@ fn hidden(stream: &mut Stream, bytes: &[u8]) -> Vec<u8> {
 fn no_damaged_file_of_a_stored_run_panics_and_every_refusal_names_a_file() {
     let home = Path::new(env!("CARGO_MANIFEST_DIR"));
     let copy = tempfile::tempdir().unwrap();
-    let inputs = Inputs { roots: vec![home.to_owned()] };
+    let inputs = Inputs::below(vec![home.to_owned()]);
     let paper = Paper::load(&home.join("experiments/movingai_sample"), &inputs).unwrap();
     let stored = fs::read_dir(home.join("data/runs/movingai_sample")).unwrap();
     let mut files: Vec<(PathBuf, Vec<u8>)> = stored

@@ -143,7 +143,7 @@ pub(super) fn validate(paper: &Paper) -> Result<(), String> {
 }
 
 fn inputs(root: &Path, folder: &Path) -> Inputs {
-    Inputs { roots: vec![folder.to_owned(), root.to_owned()] }
+    Inputs::below(vec![folder.to_owned(), root.to_owned()])
 }
 
 fn files(root: &Path, paper: usize, of: &Paper) -> Vec<File> {

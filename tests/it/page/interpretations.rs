@@ -18,7 +18,7 @@ fn runs() -> PathBuf {
 fn explored() -> Exploration {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = root.join("experiments/zhang");
-    let paper = Paper::load(&folder, &Inputs { roots: vec![folder.clone(), root.to_owned()] }).unwrap();
+    let paper = Paper::load(&folder, &Inputs::below(vec![folder.clone(), root.to_owned()])).unwrap();
     Stored::read(&paper, &runs(), &Polylines::default()).unwrap().first.unwrap()
 }
 

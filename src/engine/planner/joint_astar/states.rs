@@ -16,6 +16,8 @@ struct Tile {
     reached: [f64; CELLS],
     /// The number of each that was reached.
     numbers: [u32; CELLS],
+    /// Those that the arm cannot stand at, a bit each.
+    refused: u64,
 }
 
 /// What was reached so far.
@@ -78,39 +80,65 @@ impl States {
         self.known[self.places[&key(&cell)] as usize].reached[slot(&cell)]
     }
 
-    /// Whether going to `to` at the cost `reached` would be of use.
-    pub(super) fn lowers(&self, to: &Cell, reached: f64, around: &mut Around) -> bool {
+    /// The tile of `to`, if anything is known of its cells.
+    fn tile(&self, to: &Cell, around: &mut Around) -> Option<&Tile> {
         let place = around.places[around.tile(to)]
             .get_or_insert_with(|| self.places.get(&key(to)).copied().unwrap_or(NONE));
-        *place == NONE || reached < self.known[*place as usize].reached[slot(to)]
+        self.known.get(*place as usize)
+    }
+
+    /// Whether going to `to` at the cost `reached` would be of use: never to one that was refused.
+    pub(super) fn lowers(&self, to: &Cell, reached: f64, around: &mut Around) -> bool {
+        self.tile(to, around)
+            .is_none_or(|tile| tile.refused >> slot(to) & 1 == 0 && reached < tile.reached[slot(to)])
+    }
+
+    /// Whether `to` was reached, so that the arm can stand there.
+    pub(super) fn is_reached(&self, to: &Cell, around: &mut Around) -> bool {
+        self.tile(to, around).is_some_and(|tile| tile.numbers[slot(to)] != NONE)
+    }
+
+    /// The tile of `to`, in which something will be known.
+    fn tile_mut(&mut self, to: &Cell, around: &mut Around) -> &mut Tile {
+        let place = *self.places.entry(key(to)).or_insert_with(|| {
+            self.known.push(Tile { reached: [f64::INFINITY; CELLS], numbers: [NONE; CELLS], refused: 0 });
+            self.known.len() as u32 - 1
+        });
+        around.places[around.tile(to)] = Some(place);
+        &mut self.known[place as usize]
+    }
+
+    /// Remembers that the arm cannot stand at `to`.
+    pub(super) fn refuse(&mut self, to: &Cell, around: &mut Around) {
+        self.tile_mut(to, around).refused |= 1 << slot(to);
     }
 
     /// The number of `to`, reached at a cost that is lower than any before.
     pub(super) fn reach(&mut self, to: Cell, reached: f64, around: &mut Around) -> u32 {
-        let place = *self.places.entry(key(&to)).or_insert_with(|| {
-            self.known.push(Tile { reached: [f64::INFINITY; CELLS], numbers: [NONE; CELLS] });
-            self.known.len() as u32 - 1
-        });
-        around.places[around.tile(&to)] = Some(place);
-        let tile = &mut self.known[place as usize];
         let slot = slot(&to);
-        if tile.numbers[slot] == NONE {
-            tile.numbers[slot] = self.cells.len() as u32;
-            self.cells.push(to);
-        }
+        let next = self.cells.len() as u32;
+        let tile = self.tile_mut(&to, around);
         tile.reached[slot] = reached;
-        tile.numbers[slot]
+        let is_new = tile.numbers[slot] == NONE;
+        if is_new {
+            tile.numbers[slot] = next;
+        }
+        let number = tile.numbers[slot];
+        self.cells.extend(is_new.then_some(to));
+        number
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     #[test]
     fn a_state_is_found_from_every_neighbour_as_in_a_plain_map() {
         let mut states = States::of_start();
         let mut plain = BTreeMap::from([([0_i16; AXES], 0.0)]);
+        let mut refused = BTreeSet::new();
         let mut stream = base::seed::stream(7);
         let (mut at, mut lowered, mut kept): (Cell, _, _) = ([0; AXES], 0, 0);
         for _ in 0..20_000 {
@@ -118,9 +146,13 @@ mod tests {
             for _ in 0..4 {
                 let to: Cell = std::array::from_fn(|i| (at[i] + draw(&mut stream)).clamp(-2, 1));
                 let cost = f64::from(draw(&mut stream)) + 3.0;
-                let lowers = plain.get(&to).is_none_or(|known| cost < *known);
+                let lowers = !refused.contains(&to) && plain.get(&to).is_none_or(|known| cost < *known);
                 assert_eq!(states.lowers(&to, cost, &mut around), lowers, "{to:?}");
-                if lowers {
+                assert_eq!(states.is_reached(&to, &mut around), plain.contains_key(&to), "{to:?}");
+                if lowers && !plain.contains_key(&to) && draw(&mut stream) > 0 {
+                    states.refuse(&to, &mut around);
+                    refused.insert(to);
+                } else if lowers {
                     let number = states.reach(to, cost, &mut around);
                     assert_eq!((states.cell(number), states.reached(number)), (to, cost));
                     plain.insert(to, cost);
@@ -130,7 +162,10 @@ mod tests {
             at = std::array::from_fn(|i| (at[i] + draw(&mut stream)).clamp(-2, 1));
         }
         assert_eq!(states.len(), plain.len());
-        assert!(lowered > plain.len() && kept > 0, "cells are lowered after they were reached");
+        assert!(
+            lowered > plain.len() && kept > refused.len() && !refused.is_empty(),
+            "cells are lowered after they were reached"
+        );
     }
 
     /// −1, 0 or 1.

@@ -29,7 +29,7 @@ end = "own"
 
 fn inputs(more: Option<&std::path::Path>) -> Inputs {
     let own = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
-    Inputs { roots: more.map(PathBuf::from).into_iter().chain([own]).collect() }
+    Inputs::below(more.map(PathBuf::from).into_iter().chain([own]).collect())
 }
 
 fn planner(over: &str) -> Box<dyn Planner> {

@@ -89,7 +89,7 @@ fn wrong_settings_are_refused_with_what_is_accepted() {
 #[test]
 fn a_listed_draw_is_what_a_search_finds() {
     let root = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
-    let inputs = Inputs { roots: vec![root.to_owned()] };
+    let inputs = Inputs::below(vec![root.to_owned()]);
     let study = crate::Study::load(&root.join("experiments/zhang/conditioned.toml"), &inputs).unwrap();
     let point = crate::Interpretation::new(&study.choices, &BTreeMap::new()).unwrap();
     let mut longest = 0.0_f64;
@@ -132,7 +132,7 @@ fn a_list_made_under_other_settings_is_not_used() {
         let list = format!("for {}\n8 {}\n", print(made_for), truth + 1.0);
         std::fs::write(folder.path().join("list.txt"), list).unwrap();
         let text = format!("found = 'list.txt'\n{SETTINGS}{wide}");
-        let inputs = Inputs { roots: vec![folder.path().to_owned()] };
+        let inputs = Inputs::below(vec![folder.path().to_owned()]);
         let family =
             (ENTRY.build)(&Settings::composed("a test", toml::from_str(&text).unwrap()), &inputs).unwrap();
         let found = tries(&family.prepare(8).unwrap());

@@ -37,7 +37,7 @@ fn folder(sums: &str) -> (TempDir, Inputs) {
     for (name, text) in [("nod.urdf", ROBOT), ("set.json", SET), ("sums", sums)] {
         fs::write(folder.path().join(name), text).unwrap();
     }
-    let inputs = Inputs { roots: vec![folder.path().to_owned()] };
+    let inputs = Inputs::below(vec![folder.path().to_owned()]);
     (folder, inputs)
 }
 
