@@ -321,7 +321,7 @@ impl Posed {
         let placed = match &read.queries {
             Queries::Drawn(_) => None,
             Queries::File(file) => faults.keep(input(settings, inputs, "queries", file, |file| {
-                inputs.once(format!("{file:?}"), || {
+                inputs.once(file.display().to_string(), || {
                     let document = Document::open(file)?;
                     Ok((read_queries(&document)?, document))
                 })

@@ -40,7 +40,7 @@ pub(super) fn load_robot(
     with: Option<&Table>,
     srdf: Option<&Path>,
 ) -> Result<Robot, SettingsError> {
-    inputs.once(format!("{file:?} {with:?} {srdf:?}"), || read_robot(settings, file, with, srdf))
+    inputs.once(format!("{} {with:?} {srdf:?}", file.display()), || read_robot(settings, file, with, srdf))
 }
 
 fn read_robot(
@@ -77,7 +77,7 @@ pub(super) fn load_scene<S: Clone + Send + Sync + 'static>(
     with: Option<&Table>,
     read: impl FnOnce(&Arc<Document>) -> Result<S, SettingsError>,
 ) -> Result<S, SettingsError> {
-    inputs.once(format!("{file:?} {with:?}"), || {
+    inputs.once(format!("{} {with:?}", file.display()), || {
         let Some(with) = with else { return read(&Document::open(file)?) };
         let document = overlaid(settings, SCENE_WITH, with, file)?;
         read(&document).map_err(|fault| settings.error_at(SCENE_WITH, fault.message()))
