@@ -1,6 +1,5 @@
 //! Verdicts: the finding about each claim.
 
-use super::criterion::table_means::p_text;
 use super::outcome::{Outcome, Polarity};
 use super::verdict_rule::{Chosen, Verdict};
 use serde::{Deserialize, Serialize};
@@ -13,6 +12,11 @@ pub const CORRECTED: &str = "p after ";
 
 /// A smaller p-value says no more.
 pub const LEAST_P: f64 = 0.0001;
+
+/// A p-value to the digits that are shown of it.
+pub fn p_text(p: f64) -> String {
+    if p < 1e-3 { format!("{p:.1e}") } else { format!("{p:.3}") }
+}
 
 /// How the line begins that says which printed values would have been refused.
 pub const POWER: &str = "power: ";

@@ -81,6 +81,7 @@ const NAMED: usize = 6;
 fn explored(paper: Option<&Paper>, verdicts: &Verdicts, which: &Which, named: usize) -> Vec<String> {
     let Some(explored) = &verdicts.explored else { return Vec::new() };
     let stale = |claims: &[String], what: &str, command: &str| {
+        let first = claims.first()?;
         let command = which.command(command);
         let verb = if claims.len() == 1 { "is" } else { "are" };
         let names: Vec<String> = claims.iter().take(named).map(|id| format!("`{id}`")).collect();
@@ -88,8 +89,7 @@ fn explored(paper: Option<&Paper>, verdicts: &Verdicts, which: &Which, named: us
         let more = if more > 0 { format!(" and {more} more claims") } else { String::new() };
         let message =
             format!("{}{more} {verb} {what}: new, or changed since; run `{command}` again", names.join(", "));
-        let test =
-            paper.and_then(|paper| paper.claim(claims.first()?)).and_then(|first| first.tests().next());
+        let test = paper.and_then(|paper| paper.claim(first)).and_then(|first| first.tests().next());
         let located = test.map(|(.., settings)| settings.error_at("", message.clone()).to_string());
         Some(located.and_then(|text| Some(text.lines().next()?.to_owned())).unwrap_or(message))
     };

@@ -16,7 +16,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Those below `roots`, of which nothing was read yet.
+    /// Those below `roots`; nothing is read yet.
     pub fn below(roots: Vec<PathBuf>) -> Self {
         Self { roots, read: Arc::default() }
     }

@@ -1,7 +1,8 @@
 //! Joint tests by interpretation: which interpretations the printed numbers fit, and which they refuse.
 
-use super::super::criterion::table_means::{self, p_text};
+use super::super::criterion::table_means;
 use super::super::outcome::Polarity;
+use super::super::verdict::p_text;
 use super::count::VotingChoices;
 use super::glance::Sight;
 use super::stored::{Exploration, ExploredResult};
@@ -116,7 +117,7 @@ pub(super) fn by_option(
     if fits.is_empty() {
         return Vec::new();
     }
-    let with_any = if any.is_empty() { String::new() } else { format!(", with any {}", any.join(", ")) };
+    let with_any = if any.is_empty() { String::new() } else { format!(", with every option of {}", any.join(", ")) };
     let fits = format!("{FITS}{}{with_any}", fits.join(", "));
     let corrected = corrected(greatest_of_all, times)
         .map_or_else(String::new, |corrected| format!(", and {corrected} for {times} interpretations"));

@@ -179,7 +179,7 @@ fn a_joint_test_names_the_options_that_fit_and_those_that_fit_with_no_other() {
         by_option(&planted.choices, &touching.collect(), &planted.first, &results, 4)
     };
     let both = [
-        "fits: blocking = draws, border = cleared or spared, with any smoothing",
+        "fits: blocking = draws, border = cleared or spared, with every option of smoothing",
         "refuses: blocking = count, border = counted (p at most 0.030, and 0.120 after correcting for 4 interpretations)",
         "against blocking = count: p at most 0.030 (0.120 after correcting); farthest off is cell 4: printed 2, ours 1 (+3.0 σ)",
         "against border = counted: p at most 0.030 (0.120 after correcting); farthest off is cell 4: printed 2, ours 1 (+3.0 σ)",

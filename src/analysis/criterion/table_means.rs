@@ -15,7 +15,7 @@ use crate::analysis::number::{Ends, Number, parts, whole};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::selection::{self, Instance, Selection, by_instance};
 use crate::analysis::statistic::mean;
-use crate::analysis::verdict::{CORRECTED, Estimate, Quantity};
+use crate::analysis::verdict::{CORRECTED, Estimate, Quantity, p_text};
 use base::settings::{Accepted, Faults, SettingsError};
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
@@ -63,11 +63,6 @@ struct PlaceSpec {
     study: String,
     /// The claims that print them.
     claims: Vec<String>,
-}
-
-/// A probability in a few digits.
-pub fn p_text(p: f64) -> String {
-    if p < 1e-3 { format!("{p:.1e}") } else { format!("{p:.3}") }
 }
 
 struct Cell<'a> {

@@ -126,10 +126,12 @@ impl SettingsError {
         }
     }
 
-    /// The same thing at the same place, whatever was laid over it and is accepted there: one number may leave maps of several sizes.
+    /// The same thing at the same place, whatever was laid over it. Ranges that are accepted there may differ: one number may leave maps
+    /// of several sizes.
     fn repeats(&self, known: &Self) -> bool {
-        let found = |message: &str| {
-            message.split_once("; ").map_or_else(|| message.to_owned(), |(found, _)| found.to_owned())
+        let found = |message: &str| match message.split_once("; ") {
+            Some((found, range)) if range.ends_with(" are accepted") => found.to_owned(),
+            _ => message.to_owned(),
         };
         match (self, known) {
             (Self::At { message: own, .. }, Self::At { message, .. }) => {

@@ -147,7 +147,7 @@ impl Graph for Space<'_> {
                 continue;
             }
             let there = angles(&self.start, &to, self.delta);
-            // Many moves end at one cell: whether the arm can stand there is asked once.
+            // Many moves end at one cell: whether the arm can stand there is found out once.
             if !self.states.borrow().is_reached(&to, &mut around) && !self.is_free(&there) {
                 self.states.borrow_mut().refuse(&to, &mut around);
                 continue;
