@@ -86,7 +86,7 @@ impl<'a> MeanOf<'a> {
         let rounded = match &context.claim.difference {
             // Both of the numbers are rounded.
             Some([above, below]) => {
-                let interval = |id| context.print_of("difference", id).map(|print| print.interval());
+                let interval = |id| context.print_of("difference", id).map(proofs::exact::Print::interval);
                 let [above, below] = [interval(above)?, interval(below)?];
                 Interval::new(above.low - below.high, above.high - below.low)
             }
