@@ -22,15 +22,6 @@ pub struct Context<'a> {
     pub point: &'a Interpretation,
 }
 
-/// How the keys start that name studies.
-const STUDY_KEYS: [&str; 1] = ["stud"];
-/// How the keys start that name problem groups.
-const PROBLEM_KEYS: [&str; 2] = ["problem", "differ"];
-/// How the keys start that name contenders.
-pub const CONTENDER_KEYS: [&str; 4] = ["contender", "against", "lower", "higher"];
-/// How the keys start that name metrics.
-const METRIC_KEYS: [&str; 3] = ["metric", "over", "truth"];
-
 /// The audit's word for how a paper's digits end.
 fn audited(digits: paper::Digits) -> Digits {
     match digits {
@@ -74,69 +65,76 @@ impl<'a> Context<'a> {
         document.error_at_key(&steps.next().unwrap_or_default(), message)
     }
 
-    /// The printed number of the claim `id`.
+    /// The printed number of the claim `id`, which the settings name at `path`.
     ///
     /// # Errors
     /// There is no such claim, or it prints no number.
-    pub fn print_of(&self, id: &str) -> Result<Print, SettingsError> {
-        Context { claim: self.claim_called(id)?, ..*self }.print()
+    pub fn print_of(&self, path: &str, id: &str) -> Result<Print, SettingsError> {
+        Context { claim: self.claim_called(path, id)?, ..*self }.print()
     }
 
-    /// The claim called `id`.
+    /// The claim called `id`, which the settings name at `path`.
     ///
     /// # Errors
     /// There is no such claim.
-    pub fn claim_called(&self, id: &str) -> Result<&'a Claim, SettingsError> {
+    pub fn claim_called(&self, path: &str, id: &str) -> Result<&'a Claim, SettingsError> {
         self.paper.claim(id).ok_or_else(|| {
             let known = self.paper.claims.iter().map(|claim| claim.id.as_str());
-            let error = self.settings.error_about("", &[""], id, none_called("claim", id, known));
+            let error = self.settings.error_about(&[path], id, none_called("claim", id, known));
             error.about(&paper::names_of("claim")).about("id")
         })
     }
 
-    /// The study called `name`, which must have the contenders named; `within` is the part of the settings that names
-    /// them.
+    /// The study called `name`, which the settings name at `path`.
     ///
     /// # Errors
-    /// There is no such study, or it lacks a contender.
-    pub fn study(&self, within: &str, name: &str, contenders: &[&str]) -> Result<&'a Study, SettingsError> {
-        let study = self.paper.study(name).ok_or_else(|| {
+    /// There is no such study.
+    pub fn study(&self, path: &str, name: &str) -> Result<&'a Study, SettingsError> {
+        self.paper.study(name).ok_or_else(|| {
             let known = self.paper.studies.iter().map(|study| study.name.as_str());
-            let error =
-                self.settings.error_about(within, &STUDY_KEYS, name, none_called("study", name, known));
+            let error = self.settings.error_about(&[path], name, none_called("study", name, known));
             error.about(&paper::names_of("study"))
-        })?;
+        })
+    }
+
+    /// Refuses contenders that `study` does not have, which the settings name at `paths`.
+    ///
+    /// # Errors
+    /// It lacks one.
+    pub fn check_contenders(
+        &self,
+        paths: &[&str],
+        study: &Study,
+        named: &[&str],
+    ) -> Result<(), SettingsError> {
         let labels = study.labels();
         let known: Vec<&str> = labels.iter().map(String::as_str).collect();
         let mut faults = Faults::default();
         // What the labels of a task are is not known where its settings are wrong.
-        for label in contenders.iter().filter(|label| !known.is_empty() && !known.contains(label)) {
-            faults.add(self.unknown(within, "contender", &CONTENDER_KEYS, label, (study, &known)));
+        for label in named.iter().filter(|label| !known.is_empty() && !known.contains(label)) {
+            faults.add(self.unknown(paths, "contender", label, (study, &known)));
         }
-        faults.done()?;
-        Ok(study)
+        faults.done()
     }
 
     fn unknown(
         &self,
-        within: &str,
+        paths: &[&str],
         what: &str,
-        keys: &[&str],
         label: &str,
         (study, known): (&Study, &[&str]),
     ) -> SettingsError {
         let hint = did_you_mean(label, known.iter().copied());
         let message =
             format!("study `{}` has no {what} `{label}`{hint}; it has {}", study.name, known.join(", "));
-        self.settings.error_about(within, keys, label, message).about(&labels_of(&study.name))
+        self.settings.error_about(paths, label, message).about(&labels_of(&study.name))
     }
 
-    /// The problem groups of `study` that `labels` name, in their order; `within` is the part of the settings that names
-    /// them.
+    /// The problem groups of `study` that `labels` name, in their order; the settings name them at `path`.
     ///
     /// # Errors
     /// The study has no such group; there is no label.
-    pub fn groups(&self, within: &str, study: &Study, labels: &Labels) -> Result<Vec<String>, SettingsError> {
+    pub fn groups(&self, path: &str, study: &Study, labels: &Labels) -> Result<Vec<String>, SettingsError> {
         let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
         let mut groups = Vec::new();
         let mut faults = Faults::default();
@@ -147,7 +145,7 @@ impl<'a> Context<'a> {
             };
             let meant: Vec<String> = known.iter().filter(is_meant).map(|group| (*group).to_owned()).collect();
             if meant.is_empty() {
-                let fault = self.unknown(within, "problem group", &PROBLEM_KEYS, &label, (study, &known));
+                let fault = self.unknown(&[path], "problem group", &label, (study, &known));
                 // What begins so may be what was not read.
                 let is_many = label.ends_with('*');
                 faults.add(if is_many { fault.about(&columns_of(&study.name)) } else { fault });
@@ -157,16 +155,16 @@ impl<'a> Context<'a> {
         faults.done()?;
         if groups.is_empty() {
             let message = "`problems` needs at least one label";
-            return Err(self.settings.error_at(within, message).about("problems"));
+            return Err(self.settings.error_at(path, message).about("problems"));
         }
         Ok(groups)
     }
 
-    /// The metric that `name` stands for under the interpretation.
+    /// The metric that `name`, which the settings give at `path`, stands for under the interpretation.
     ///
     /// # Errors
     /// There is no such metric.
-    pub fn known_metric(&self, name: &str) -> Result<&'static Metric, SettingsError> {
+    pub fn known_metric(&self, path: &str, name: &str) -> Result<&'static Metric, SettingsError> {
         metric::find(self.point.metric(name)).ok_or_else(|| {
             let choices = &self.paper.choices;
             let options = choices.iter().flat_map(|choice| choice.options.values());
@@ -179,16 +177,16 @@ impl<'a> Context<'a> {
                 "there is no metric `{name}`, nor a choice that gives the name a meaning{hint}; the metrics are {}",
                 known.join(", ")
             );
-            self.settings.error_about("", &METRIC_KEYS, name, message)
+            self.settings.error_about(&[path], name, message)
         })
     }
 
-    /// The metric that `name` stands for under the interpretation; `study` must produce it.
+    /// As [`known_metric`](Self::known_metric); `study` must produce it.
     ///
     /// # Errors
     /// There is no such metric, or the study does not produce it.
-    pub fn metric(&self, name: &str, study: &Study) -> Result<&'static Metric, SettingsError> {
-        let metric = self.known_metric(name)?;
+    pub fn metric(&self, path: &str, name: &str, study: &Study) -> Result<&'static Metric, SettingsError> {
+        let metric = self.known_metric(path, name)?;
         let columns = study.columns();
         if metric.is_produced(&columns) {
             return Ok(metric);
@@ -201,7 +199,7 @@ impl<'a> Context<'a> {
             metric.name,
             produced.join(", ")
         );
-        Err(self.settings.error_about("", &METRIC_KEYS, name, message).about(&columns_of(&study.name)))
+        Err(self.settings.error_about(&[path], name, message).about(&columns_of(&study.name)))
     }
 
     /// An error unless `low..high` rises and lies in `least..most`.

@@ -120,11 +120,13 @@ impl<'a> Selection<'a> {
     pub fn new(context: &Context<'a>, spec: &SelectionSpec) -> Result<Self, SettingsError> {
         let contenders = spec.contender.listed();
         let named: Vec<&str> = contenders.iter().chain(&spec.against).map(String::as_str).collect();
-        let study = context.study("select", &spec.study, &[])?;
+        let study = context.study("select.study", &spec.study)?;
         let mut faults = Faults::default();
-        faults.keep(context.study("select", &spec.study, &named));
-        let groups = faults.keep(context.groups("select", study, &spec.problems)).unwrap_or_default();
-        let metric = spec.metric.as_ref().and_then(|name| faults.keep(context.metric(name, study)));
+        faults.keep(context.check_contenders(&["select.contender", "select.against"], study, &named));
+        let groups =
+            faults.keep(context.groups("select.problems", study, &spec.problems)).unwrap_or_default();
+        let metric =
+            spec.metric.as_ref().and_then(|name| faults.keep(context.metric("select.metric", name, study)));
         let labels: Vec<&str> = groups.iter().map(String::as_str).collect();
         let query = spec.query.as_ref().map(Labels::listed);
         let lacking = query.iter().flatten().find_map(|query| study.lacks_query(&labels, query));

@@ -1,10 +1,9 @@
 //! `replan confirm`: a paper's claims on the second seed.
 
 use super::consent::Consent;
-use super::explorer::{Explorer, judged, most_instances, scratch, within};
-use super::load::load;
+use super::explorer::{Explorer, judged, most_instances, within};
+use super::load::open;
 use super::one_shard::RoundArgs;
-use super::places::Places;
 use super::progress::doing;
 use super::rounds::{Halt, Round, Rounds, unless_planned};
 use super::{Failure, How, Which, counted, judge, verdicts};
@@ -59,15 +58,12 @@ pub fn confirm(
     rounds: Option<Rounds>,
     (command, consent): (String, Consent),
 ) -> Result<(), Failure> {
-    let places = Places::find(which, "")?;
-    let paper = load(&places, &How::plain(threads))?;
+    let (places, paper) = open(which, &How::plain(threads))?;
     consent.check(&paper.studies, &places)?;
     check_seeds(&paper)?;
     let _lock = Lock::take(&places.runs)?;
-    let folder = rounds
-        .as_ref()
-        .map_or_else(|| scratch(&places, &paper, "confirm"), |rounds| Rounds::merged(&rounds.parts));
-    let explorer = Explorer { rounds, second_seed: true, ..Explorer::new(&paper, &places, threads, folder) };
+    let explorer =
+        Explorer { second_seed: true, ..Explorer::new(&paper, &places, threads, (rounds, "confirm")) };
     let found = unless_planned(confirmed(&explorer))?;
     let Some(second) = found.map(|found| Explored { command, ..found }) else { return Ok(()) };
     let trials = second.trials;

@@ -1,10 +1,9 @@
 //! `replan explore`: a paper's claims under every interpretation that is explored.
 
 use super::consent::Consent;
-use super::explorer::{Explorer, budget, judged, scratch};
-use super::load::load;
+use super::explorer::{Explorer, budget, judged};
+use super::load::open;
 use super::one_shard::RoundArgs;
-use super::places::Places;
 use super::rounds::{Round, Rounds, unless_planned};
 use super::{Failure, How, Which, counted, judge, verdicts};
 use crate::analysis::estimates::{Estimates, Explored};
@@ -51,9 +50,8 @@ pub fn first_points(explorer: &Explorer<'_>) -> Result<Vec<Interpretation>, Fail
 
 /// Says what would run.
 fn plan(which: &Which) -> Result<(), Failure> {
-    let places = Places::find(which, "")?;
-    let paper = load(&places, &How::plain(None))?;
-    let explorer = Explorer::new(&paper, &places, None, scratch(&places, &paper, "explore"));
+    let (places, paper) = open(which, &How::plain(None))?;
+    let explorer = Explorer::new(&paper, &places, None, (None, "explore"));
     let budget = budget(&paper)?;
     let (points, trials) = explorer.affordable(&budget)?;
     for line in anew(&paper) {
@@ -128,14 +126,10 @@ pub fn explore(
     rounds: Option<Rounds>,
     (command, consent): (String, Consent),
 ) -> Result<(), Failure> {
-    let places = Places::find(which, "")?;
-    let paper = load(&places, &How::plain(threads))?;
+    let (places, paper) = open(which, &How::plain(threads))?;
     consent.check(&paper.studies, &places)?;
     let budget = budget(&paper)?;
-    let folder = rounds
-        .as_ref()
-        .map_or_else(|| scratch(&places, &paper, "explore"), |rounds| Rounds::merged(&rounds.parts));
-    let explorer = Explorer { rounds, ..Explorer::new(&paper, &places, threads, folder) };
+    let explorer = Explorer::new(&paper, &places, threads, (rounds, "explore"));
     let (points, trials) = explorer.affordable(&budget)?;
     let _lock = Lock::take(&places.runs)?;
     let verdicts = judged(&paper, &places)?;

@@ -65,11 +65,6 @@ pub fn budget(paper: &Paper) -> Result<ExploreSpec, Failure> {
     paper.explore.clone().filter(|explore| !explore.instances.is_empty()).ok_or_else(missing)
 }
 
-/// Where the trials of `command` are kept: they are large, and what was found in them is not.
-pub fn scratch(places: &Places, paper: &Paper, command: &str) -> PathBuf {
-    places.scratch.join(command).join(&paper.id)
-}
-
 /// The claims' verdicts by the stored default run.
 pub fn judged(paper: &Paper, places: &Places) -> Result<Verdicts, Failure> {
     doing(&format!("{}: judging {} claims and parts of claims", paper.id, paper.claims.len()));
@@ -80,9 +75,17 @@ pub fn judged(paper: &Paper, places: &Places) -> Result<Verdicts, Failure> {
 }
 
 impl<'p> Explorer<'p> {
-    /// One that explores on this machine alone.
-    pub fn new(paper: &'p Paper, places: &'p Places, threads: Option<u32>, folder: PathBuf) -> Self {
-        Self { paper, places, threads, folder, second_seed: false, rounds: None }
+    /// One for `command` that explores on this machine alone, or as far as the parts in `rounds` go.
+    pub fn new(
+        paper: &'p Paper,
+        places: &'p Places,
+        threads: Option<u32>,
+        (rounds, command): (Option<Rounds>, &str),
+    ) -> Self {
+        // Trials are large, and what was found in them is not.
+        let alone = || places.scratch.join(command).join(&paper.id);
+        let folder = rounds.as_ref().map_or_else(alone, |rounds| Rounds::merged(&rounds.parts));
+        Self { paper, places, threads, folder, second_seed: false, rounds }
     }
 
     /// The points that the budget has room for, and how many trials they take: all mandatory ones, and drawn ones in

@@ -1,7 +1,6 @@
 //! `replan import`: turns results that others recorded into records.
 
-use super::load::load;
-use super::places::Places;
+use super::load::open;
 use super::{Failure, How, Which, command_line};
 use crate::analysis::history::History;
 use base::settings::none_called;
@@ -87,8 +86,7 @@ fn into_study(imported: &Imported, into: &str) -> Result<PathBuf, Failure> {
             "--into `{into}` names no study; a paper and its study as `zhang/results` are accepted"
         ))
     })?;
-    let places = Places::find(&Which { paper: paper.to_owned(), out: None }, "")?;
-    let paper = load(&places, &How::plain(None))?;
+    let (places, paper) = open(&Which { paper: paper.to_owned(), out: None }, &How::plain(None))?;
     let study = paper.study(name).ok_or_else(|| {
         let known = paper.studies.iter().map(|study| study.name.as_str());
         Failure::input(format!("--into: {}", none_called("study", name, known)))

@@ -42,8 +42,7 @@ impl Judge {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         let how = How { quick: false, seed: None, with: self.with, threads: None };
-        let places = Places::find(&self.which, &how.variant())?;
-        let paper = super::load::load(&places, &how)?;
+        let (places, paper) = super::load::open(&self.which, &how)?;
         let point = how.interpretation(&paper.choices)?;
         if self.check {
             return check(&paper, point, &places);

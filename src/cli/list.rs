@@ -332,7 +332,7 @@ fn study_alone(paper: &Paper, study: &Study) -> Result<String, Failure> {
     let name = &study.name;
     let places = Places::find(&Which { paper: id.clone(), out: None }, "")?;
     doing(&format!("{id}/{name}: counting its trials"));
-    let trials = Explorer::new(paper, &places, None, PathBuf::new()).trials_of(study)?;
+    let trials = Explorer::new(paper, &places, None, (None, "explore")).trials_of(study)?;
     let mut lines = vec![
         format!("{id}/{name}"),
         wrapped("  ", &study.question, 2),

@@ -2,7 +2,7 @@
 
 use super::places::Places;
 use super::schema::schema_of_any_names;
-use super::{Failure, How};
+use super::{Failure, How, Which};
 use crate::analysis::claims;
 use base::settings::Faults;
 use study::paper::Paper;
@@ -17,6 +17,13 @@ pub fn gather(places: &Places, faults: &mut Faults) -> Result<Option<Paper>, Fai
         faults.keep(crate::render::results::validate(paper));
     }
     Ok(paper)
+}
+
+/// Where the paper that `which` names lies, and the paper, both as the flags ask for them.
+pub fn open(which: &Which, how: &How) -> Result<(Places, Paper), Failure> {
+    let places = Places::find(which, &how.variant())?;
+    let paper = load(&places, how)?;
+    Ok((places, paper))
 }
 
 /// The paper as the flags ask for it.

@@ -2,8 +2,7 @@
 
 use super::consent::Consent;
 use super::explorer::Explorer;
-use super::load::load;
-use super::places::Places;
+use super::load::open;
 use super::rounds::{Round, Rounds, at_work};
 use super::sharded::Sharded;
 use super::{Again, Failure, How, Which, command_line};
@@ -60,8 +59,7 @@ pub fn sharded(
     points: impl Fn(&Explorer<'_>) -> Result<Vec<Interpretation>, Failure>,
 ) -> Result<Sharded, Failure> {
     let which = Which { paper: named.to_owned(), out: None };
-    let places = Places::find(&which, "")?;
-    let paper = load(&places, &How::plain(threads))?;
+    let (places, paper) = open(&which, &How::plain(threads))?;
     let explorer = Explorer {
         paper: &paper,
         places: &places,

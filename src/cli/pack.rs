@@ -69,8 +69,7 @@ impl Pack {
                 self.to.display()
             )));
         }
-        let places = Places::find(&self.which, "")?;
-        let paper = super::load::load(&places, &How::plain(None))?;
+        let (places, paper) = super::load::open(&self.which, &How::plain(None))?;
         let verdicts = Verdicts::read(&places.runs)?;
         super::places::check_stored(&places.runs)?;
         // What the README promises a reviewer: verdicts follow from records, tables and figures from both.

@@ -35,9 +35,7 @@ const EXAMPLES: &str = "Examples:
 impl Render {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
-        let places = Places::find(&self.which, "")?;
-        let how = How { quick: false, seed: None, with: None, threads: None };
-        let paper = super::load::load(&places, &how)?;
+        let (places, paper) = super::load::open(&self.which, &How::plain(None))?;
         let stop = stop_flag();
         if self.check {
             return check(&paper, &places, self.only.as_deref(), stop);

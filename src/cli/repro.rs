@@ -2,7 +2,7 @@
 
 use super::consent::Consent;
 use super::counted;
-use super::load::load;
+use super::load::open;
 use super::places::Places;
 use super::progress::{safe_point, stop_flag};
 use super::run::run_studies;
@@ -49,8 +49,7 @@ impl Repro {
     /// Runs the command.
     pub fn run(self) -> Result<(), Failure> {
         MadeBy::here();
-        let places = Places::find(&self.which, &self.how.variant())?;
-        let paper = load(&places, &self.how)?;
+        let (places, paper) = open(&self.which, &self.how)?;
         self.consent.check(&paper.studies, &places)?;
         if let Some(name) = &self.trial {
             return trial::run(&paper, &places, &self.how, name);

@@ -1,7 +1,7 @@
 //! `replan run`: the trials, and nothing after them.
 
 use super::consent::Consent;
-use super::load::load;
+use super::load::open;
 use super::places::Places;
 use super::progress::{Bar, doing};
 use super::rounds::at_work;
@@ -56,8 +56,7 @@ impl Run {
             let sharded = Sharded::load(&self.which.paper, &self.how)?;
             return sharded.run_shard((number, of), folder, (self.again, self.consent), self.why);
         }
-        let places = Places::find(&self.which, &self.how.variant())?;
-        let paper = load(&places, &self.how)?;
+        let (places, paper) = open(&self.which, &self.how)?;
         self.how.check_interpretations(&paper)?;
         self.consent.check(&paper.studies, &places)?;
         let lock = Lock::take(&places.runs)?;

@@ -1,7 +1,7 @@
 //! Work that is cut into shards: the studies of a run, or of one round of an exploration.
 
 use super::consent::Consent;
-use super::load::load;
+use super::load::open;
 use super::places::Places;
 use super::progress::{Bar, doing, stop_flag};
 use super::summary::summary;
@@ -39,8 +39,7 @@ impl Sharded {
     /// Those of loading the paper.
     pub fn load(paper: &str, how: &How) -> Result<Self, Failure> {
         let which = Which { paper: paper.to_owned(), out: None };
-        let places = Places::find(&which, &how.variant())?;
-        Self::at(paper, how, places)
+        Self::at(&which, how)
     }
 
     /// It, as `plan` has it, with its outputs where a run of that kind with `--out` at `out` has them.
@@ -50,16 +49,15 @@ impl Sharded {
     pub fn of_plan(plan: &Plan, out: PathBuf) -> Result<Self, Failure> {
         let how = How { quick: plan.quick, seed: plan.seed, with: plan.with.clone(), threads: None };
         let which = Which { paper: plan.paper.clone(), out: Some(out) };
-        let places = Places::find(&which, &how.variant())?;
-        Self::at(&plan.paper, &how, places)
+        Self::at(&which, &how)
     }
 
-    fn at(named: &str, how: &How, places: Places) -> Result<Self, Failure> {
-        let paper = load(&places, how)?;
+    fn at(which: &Which, how: &How) -> Result<Self, Failure> {
+        let (places, paper) = open(which, how)?;
         let run = |study: &Study| Ok((study.clone(), how.interpretations(study)?));
         let runs = paper.studies.iter().map(run).collect::<Result<_, Failure>>()?;
         let claims = meanings(&paper);
-        Ok(Self { places, how: how.clone(), runs, claims, named: named.to_owned(), round: None })
+        Ok(Self { places, how: how.clone(), runs, claims, named: which.paper.clone(), round: None })
     }
 
     /// One round of an exploration of the paper that the command line called `named`.

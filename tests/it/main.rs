@@ -9,7 +9,6 @@ mod broken_papers;
 mod cell_threads;
 mod characteristics;
 mod choices;
-mod circles;
 mod cli_check;
 mod cli_compare;
 mod cli_explains;

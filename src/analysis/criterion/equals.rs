@@ -63,7 +63,8 @@ impl<'a> Equals<'a> {
         let selection = Selection::new(context, &settings.select)?;
         selection.some_contender(context)?;
         let metric = selection.metric(context)?;
-        let truth = settings.truth.as_ref().map(|name| context.metric(name, selection.study)).transpose()?;
+        let truth =
+            settings.truth.as_ref().map(|name| context.metric("truth", name, selection.study)).transpose()?;
         if truth.is_some() == selection.against.is_some() {
             return Err(context
                 .settings

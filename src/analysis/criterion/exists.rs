@@ -7,7 +7,7 @@ mod differs;
 mod ran_under;
 
 use super::{Criterion, Entry};
-use crate::analysis::context::{CONTENDER_KEYS, Context};
+use crate::analysis::context::Context;
 use crate::analysis::criterion_result::CriterionResult;
 use crate::analysis::evidence::{Evidence, Pair, Run, default_point};
 use crate::analysis::metric::Metric;
@@ -131,10 +131,10 @@ impl<'a> Attained<'a> {
         let (places, metric) = places(context, &settings)?;
         let mut given = Vec::new();
         for id in &settings.given {
-            let claim = context.claim_called(id)?;
+            let claim = context.claim_called("given", id)?;
             let settings = claim.check(ENTRY.name).ok_or_else(|| {
                 let message = format!("claim `{id}` cannot be given: it has no criterion `exists`");
-                context.settings.error_about("", &["given"], id, message)
+                context.settings.error_about(&["given"], id, message)
             })?;
             given.push(Attained::new(&Context { claim, settings, ..*context })?);
         }
@@ -294,10 +294,10 @@ fn places<'a>(
     let mut metric = None;
     let mut faults = Faults::default();
     for (index, place) in settings.r#in.iter().enumerate() {
-        let within = format!("in.{index}");
-        let Some(study) = faults.keep(context.study(&within, &place.study, &[])) else { continue };
-        let groups = faults.keep(context.groups(&within, study, &place.problems)).unwrap_or_default();
-        metric = faults.keep(context.metric(&settings.metric, study)).or(metric);
+        let at = |key| format!("in.{index}.{key}");
+        let Some(study) = faults.keep(context.study(&at("study"), &place.study)) else { continue };
+        let groups = faults.keep(context.groups(&at("problems"), study, &place.problems)).unwrap_or_default();
+        metric = faults.keep(context.metric("metric", &settings.metric, study)).or(metric);
         places.push(Place { study, groups, selected: place.selected });
     }
     for label in settings.contenders.listed().iter().chain(&settings.against) {
@@ -305,7 +305,7 @@ fn places<'a>(
         let known = || places.iter().flat_map(|place| &place.study.contenders).map(|c| c.label.as_str());
         if places.len() == settings.r#in.len() && !known().any(|own| own == label) {
             let message = none_called("contender", label, known());
-            faults.add(context.settings.error_about("", &CONTENDER_KEYS, label, message));
+            faults.add(context.settings.error_about(&["contenders", "against"], label, message));
         }
     }
     faults.done()?;

@@ -102,7 +102,9 @@ impl<'a> LeastOf<'a> {
         }
         let named: Vec<&str> = lower.iter().chain(&higher).map(String::as_str).collect();
         let mut faults = Faults::default();
-        faults.keep(context.study("", &settings.select.study, &named));
+        if let Some(study) = context.paper.study(&settings.select.study) {
+            faults.keep(context.check_contenders(&["lower", "higher"], study, &named));
+        }
         let selection = faults.keep(Selection::new(context, &settings.select));
         let Some(selection) = selection.filter(|_| faults.is_empty()) else { return Err(faults.error()) };
         let metric = selection.metric(context)?;

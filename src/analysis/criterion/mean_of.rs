@@ -86,8 +86,8 @@ impl<'a> MeanOf<'a> {
         let rounded = match &context.claim.difference {
             // Both of the numbers are rounded.
             Some([above, below]) => {
-                let [above, below] =
-                    [context.print_of(above)?.interval(), context.print_of(below)?.interval()];
+                let interval = |id| context.print_of("difference", id).map(proofs::exact::Print::interval);
+                let [above, below] = [interval(above)?, interval(below)?];
                 Interval::new(above.low - below.high, above.high - below.low)
             }
             None => print.interval(),

@@ -114,7 +114,7 @@ impl<'a> RowOneInstance<'a> {
                 return Err(error.about(&sweeps_of(&selection.study.name)));
             }
             for id in &row.claims {
-                printed.push(context.print_of(id)?.printed.value());
+                printed.push(context.print_of("rows.claims", id)?.printed.value());
             }
             Ok(Row { selection, cells })
         };

@@ -129,7 +129,6 @@ impl<'a> Counted<'a> {
         for name in settings.columns.iter().chain(&settings.per) {
             if column::find(name).is_none() {
                 return Err(context.settings.error_about(
-                    "",
                     &["columns", "per"],
                     name,
                     format!("there is no column `{name}`"),

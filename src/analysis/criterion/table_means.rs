@@ -110,7 +110,7 @@ impl<'a> TableMeans<'a> {
         let mut faults = Faults::default();
         let mut rows: BTreeMap<(String, Vec<String>, usize), Vec<Cell<'a>>> = BTreeMap::new();
         for (index, place) in settings.places.iter().enumerate() {
-            let Some(study) = faults.keep(context.study(&format!("in.{index}"), &place.study, &[])) else {
+            let Some(study) = faults.keep(context.study(&format!("in.{index}.study"), &place.study)) else {
                 continue;
             };
             for (at, id) in place.claims.iter().enumerate() {
@@ -151,7 +151,7 @@ fn places(claim: &Claim) -> impl Iterator<Item = PlaceSpec> {
 
 /// The cell that the claim `id` is, `None` if it is not testable or a difference of two others.
 fn cell<'a>(context: &Context<'a>, at: &str, id: &str) -> Result<Option<Cell<'a>>, SettingsError> {
-    let claim = context.claim_called(id)?;
+    let claim = context.claim_called(at, id)?;
     if claim.untestable.is_some() || claim.difference.is_some() {
         return Ok(None);
     }

@@ -110,7 +110,8 @@ const EQUAL: f64 = 1e-3;
 
 /// The ratio of the numbers that two claims print.
 fn ratio(context: &Context<'_>, above: &str, below: &str) -> Result<f64, SettingsError> {
-    let ratio = context.print_of(above)?.printed.value() / context.print_of(below)?.printed.value();
+    let value = |id| context.print_of("printed_ratio", id).map(|print| print.printed.value());
+    let ratio = value(above)? / value(below)?;
     if ratio.is_finite() {
         return Ok(ratio);
     }

@@ -30,7 +30,7 @@ chosen = "named by the paper, before its times were looked at"
         if own.printed.decimals() > 6 {
             return Err(context.settings.error("the time has more than 6 decimals; at most 6 are accepted"));
         }
-        let times = with.iter().map(|id| context.print_of(id)).chain([Ok(own)]);
+        let times = with.iter().map(|id| context.print_of("with", id)).chain([Ok(own)]);
         let times = times.collect::<Result<Vec<_>, _>>()?;
         let tick = Tick { numerator, denominator };
         Ok(rule(move |_, _| refused(proof::clock_ticks(tick, &times, &chosen))))

@@ -27,8 +27,9 @@ closed = "closed"
     build: |context| {
         let Settings { size, start, goal, optimum: [straight, diagonal], metric, opened, closed } =
             context.settings.read()?;
-        let [metric, opened, closed] =
-            [context.known_metric(&metric)?, context.known_metric(&opened)?, context.known_metric(&closed)?];
+        let metric = context.known_metric("metric", &metric)?;
+        let opened = context.known_metric("opened", &opened)?;
+        let closed = context.known_metric("closed", &closed)?;
         // Which bound holds for the metric under the interpretation.
         let applies: Option<fn(CountBound) -> usize> = match metric.name {
             name if name == opened.name => Some(|bound| bound.opened),

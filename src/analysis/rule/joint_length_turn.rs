@@ -28,9 +28,9 @@ longest = 15.0
     build: |context| {
         let read: Settings = context.settings.read()?;
         let Settings { size, start, goal, longest, .. } = read;
-        let length = context.print_of(&read.length)?;
-        let turn = context.print_of(&read.turn)?;
-        let meant = match context.known_metric(&read.metric)?.name {
+        let length = context.print_of("length", &read.length)?;
+        let turn = context.print_of("turn", &read.turn)?;
+        let meant = match context.known_metric("metric", &read.metric)?.name {
             name if name == read.interior => Convention::Interior,
             name if name == read.exterior => Convention::Exterior,
             name => {

@@ -21,7 +21,7 @@ size = [40, 40]
 "#,
     build: |context| {
         let Settings { baseline, start, goal, size } = context.settings.read()?;
-        let baseline = context.print_of(&baseline)?;
+        let baseline = context.print_of("baseline", &baseline)?;
         let print = context.print()?;
         let ends = Ends { size, start, goal };
         Ok(rule(move |_, _| refused(proof::largest_saving(print, baseline, ends))))

@@ -20,7 +20,7 @@ after = "table1.weighted.length"
     build: |context| {
         let Settings { before, after } = context.settings.read()?;
         let print = context.print()?;
-        let cells = [context.print_of(&before)?, context.print_of(&after)?];
+        let cells = [context.print_of("before", &before)?, context.print_of("after", &after)?];
         let proof = proof::percentage(print, cells).ok_or_else(|| {
             let [before, after] = cells.map(|cell| cell.printed);
             context.settings.error(format!(

@@ -27,9 +27,9 @@ longest = 15.0
     build: |context| {
         let read: Settings = context.settings.read()?;
         let Settings { size, start, goal, longest, shorter, .. } = read;
-        let turn = context.print_of(&read.turn)?;
-        let against = context.print_of(&read.against)?;
-        let is_exterior = context.known_metric(&read.metric)?.name == read.exterior;
+        let turn = context.print_of("turn", &read.turn)?;
+        let against = context.print_of("against", &read.against)?;
+        let is_exterior = context.known_metric("metric", &read.metric)?.name == read.exterior;
         let meant = if is_exterior { Convention::Exterior } else { Convention::Interior };
         let ends = Ends { size, start, goal };
         Ok(rule(move |polylines, is_explained| {

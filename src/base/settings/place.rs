@@ -1,6 +1,6 @@
 //! Where tables and values of settings stand, and the place of an error about them.
 
-use super::document::{inner, part_of, span_of};
+use super::document::{inner, span_of};
 use super::{Document, SettingsError};
 use std::ops::Range;
 use std::sync::Arc;
@@ -76,7 +76,7 @@ impl Place {
         let Some((key, named)) = &self.named else {
             return self.at(&self.steps).and_then(|table| sought.exactly(table));
         };
-        let (Sought::Value(path) | Sought::Key(path)) = sought else { return None };
+        let (Sought::Value(path) | Sought::Key(path)) = sought;
         let is_key = matches!(sought, Sought::Key(_)) && path == key;
         let is_it = sought.first() == key;
         is_it.then(|| self.at(if is_key { named } else { &self.steps })).flatten().map(toml::Spanned::span)
@@ -90,29 +90,19 @@ pub(super) enum Sought<'a> {
     Value(&'a str),
     /// The key that a path ends with.
     Key(&'a str),
-    /// A text: see [`Settings::error_about`].
-    Word { within: &'a str, keys: &'a [&'a str], word: &'a str },
 }
 
 impl Sought<'_> {
-    /// The key of the table that it lies under; empty if it is the table itself or is looked for in all of it.
+    /// The key of the table that it lies under; empty if it is the table itself.
     pub(super) fn first(&self) -> &str {
-        match self {
-            Self::Value(path) | Self::Key(path) => path.split('.').next().unwrap_or_default(),
-            Self::Word { .. } => "",
-        }
+        let (Self::Value(path) | Self::Key(path)) = self;
+        path.split('.').next().unwrap_or_default()
     }
 
     /// Where it stands in the table, or as near to it as there is anything.
     pub(super) fn near(&self, table: &Written<'_>) -> Range<usize> {
-        self.exactly(table).unwrap_or_else(|| match self {
-            Self::Value(path) | Self::Key(path) => span_of(table, path),
-            Self::Word { within, word, .. } => {
-                let part = part_of(table, within);
-                let found = text(part, "", &[""], word).or_else(|| text(table, "", &[""], word));
-                found.unwrap_or_else(|| part.span())
-            }
-        })
+        let (Self::Value(path) | Self::Key(path)) = self;
+        self.exactly(table).unwrap_or_else(|| span_of(table, path))
     }
 
     /// Where it stands in the table, if it does.
@@ -128,26 +118,6 @@ impl Sought<'_> {
                 let mut keys = holder.get_ref().as_table()?.iter().map(|(key, _)| key);
                 keys.find(|found| found.get_ref() == key).map(toml::Spanned::span)
             }
-            Self::Word { within, keys, word } => {
-                let part = part_of(table, within);
-                text(part, "", keys, word).or_else(|| text(table, "", keys, word))
-            }
         }
-    }
-}
-
-/// Where the first text inside `value` that is `word` stands, of those whose nearest key starts with one of `keys`; `key` is
-/// the nearest above `value`.
-fn text(value: &Written<'_>, key: &str, keys: &[&str], word: &str) -> Option<Range<usize>> {
-    match value.get_ref() {
-        DeValue::String(found) => {
-            (found == word && keys.iter().any(|start| key.starts_with(start))).then(|| value.span())
-        }
-        DeValue::Table(table) => {
-            let found = table.iter().filter_map(|(key, inner)| text(inner, key.get_ref(), keys, word));
-            found.min_by_key(|span| span.start)
-        }
-        DeValue::Array(array) => array.iter().find_map(|inner| text(inner, key, keys, word)),
-        _ => None,
     }
 }

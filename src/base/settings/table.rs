@@ -51,12 +51,7 @@ pub struct Part {
 impl Part {
     /// Whether `sought` may stand in it.
     fn may_hold(&self, sought: Sought<'_>) -> bool {
-        match sought {
-            Sought::Word { within, .. } => {
-                self.key.is_none_or(|key| within.is_empty() || within.starts_with(key))
-            }
-            _ => self.key.is_none_or(|key| sought.first() == key),
-        }
+        self.key.is_none_or(|key| sought.first() == key)
     }
 }
 
@@ -242,16 +237,12 @@ impl Settings {
         fault.map_or(Ok(()), |fault| Err(self.error_at(path, fault)))
     }
 
-    /// An error about `word`, a name that these settings give. It stands at the first text that is it inside the value that `within`
-    /// leads to, under a key that starts with one of `keys`. If there is none, it stands at the first text that is it at all.
-    pub fn error_about(
-        &self,
-        within: &str,
-        keys: &[&str],
-        word: &str,
-        message: impl Into<String>,
-    ) -> SettingsError {
-        self.placed(message.into(), Sought::Word { within, keys, word }).about(word)
+    /// An error about `word`, a name that these settings give where one of `paths` leads: to any element of an array of which a
+    /// path gives no number. If it is nowhere there, the error stands as near as there is anything on the first path.
+    pub fn error_about(&self, paths: &[&str], word: &str, message: impl Into<String>) -> SettingsError {
+        let whole = toml::Value::Table(self.table.clone());
+        let found = paths.iter().find_map(|path| path_of(&whole, &path.split('.').collect::<Vec<_>>(), word));
+        self.error_at(found.as_deref().unwrap_or(paths[0]), message).about(word)
     }
 
     /// An error at the place of `sought`: in the uppermost table that holds it, and where none does, in the lowest.
@@ -277,9 +268,7 @@ impl Settings {
             }
             Origin::Parts { whole, keys, whose } => {
                 let message = format!("{whose}: {message}");
-                let (Sought::Value(path) | Sought::Key(path)) = sought else {
-                    return whole.placed(message, sought);
-                };
+                let (Sought::Value(path) | Sought::Key(path)) = sought;
                 let holds = |key: &&String| part_in(&whole.table, key, sought.first());
                 let key = keys.iter().find(holds).or(keys.first()).map_or("", String::as_str);
                 let path = if key.is_empty() { path.to_owned() } else { format!("{key}.{path}") };
@@ -317,6 +306,25 @@ fn part_in(table: &Table, path: &str, key: &str) -> bool {
         value => value.get(step),
     });
     value.is_some_and(|value| value.get(key).is_some())
+}
+
+/// The keys and numbers of elements that lead to the first text that is `word` where `steps` lead in `value`.
+fn path_of(value: &toml::Value, steps: &[&str], word: &str) -> Option<String> {
+    match (value, steps) {
+        (toml::Value::String(text), []) => (text == word).then(String::new),
+        (toml::Value::Table(table), [step, rest @ ..]) => {
+            path_of(table.get(*step)?, rest, word).map(|path| format!("{step}.{path}"))
+        }
+        (toml::Value::Array(elements), _) => {
+            let number: Option<usize> = steps.first().and_then(|step| step.parse().ok());
+            let rest = if number.is_some() { &steps[1..] } else { steps };
+            let meant =
+                elements.iter().enumerate().filter(|(index, _)| number.is_none_or(|own| own == *index));
+            let mut found = meant.map(|(index, own)| Some(format!("{index}.{}", path_of(own, rest, word)?)));
+            found.find_map(|path| path)
+        }
+        _ => None,
+    }
 }
 
 /// The keys and numbers of elements that lead to what has exactly this span, and whether it is a key.

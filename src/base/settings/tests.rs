@@ -78,16 +78,16 @@ fn a_name_at_fault_stands_in_its_own_table_under_its_own_key_in_its_own_part() {
         "[[part]]\nsettings = { of = \"A*\" }\n[[part]]\n[part.settings]\nproblems = [\"A*\"]\nof = \"A*\"\n\
          sets = [{ problems = [\"x\"] }, { problems = [\"x\"] }]\n",
     );
-    for (within, keys, word, expected) in [
-        ("", &["of"][..], "A*", (6, 6)),
-        ("", &["problem"], "A*", (5, 13)),
-        ("", &["against"], "A*", (5, 13)),
-        ("sets.1", &["problem"], "x", (7, 45)),
-        ("sets.1", &["of"], "A*", (6, 6)),
-        ("sets.0", &["of"], "absent", (7, 9)),
+    for (paths, word, expected) in [
+        (&["of"][..], "A*", (6, 6)),
+        (&["problems", "of"], "A*", (5, 13)),
+        (&["against", "of"], "A*", (6, 6)),
+        (&["sets.problems"], "x", (7, 23)),
+        (&["sets.1.problems"], "x", (7, 45)),
+        (&["sets.0.of", "of"], "absent", (7, 9)),
     ] {
-        let error = settings.error_about(within, keys, word, "wrong");
-        assert_eq!(place(&error), expected, "{within} {keys:?} {word}: {error}");
+        let error = settings.error_about(paths, word, "wrong");
+        assert_eq!(place(&error), expected, "{paths:?} {word}: {error}");
     }
 }
 

@@ -25,38 +25,40 @@ pub(super) fn known<'a>(
     contenders: impl IntoIterator<Item = &'a String>,
 ) -> Result<(), SettingsError> {
     let mut faults = Faults::default();
-    let mut check = |what: &str, keys: &[&str], label: &String, known: &[&str]| {
+    let mut check = |what: &str, paths: &[&str], label: &String, known: &[&str]| {
         if !known.contains(&label.as_str()) {
             let hint = did_you_mean(label, known.iter().copied());
             let message = format!("no {what} is called `{label}`{hint}; they are {}", known.join(", "));
             let labels = labels_of(&study.name);
-            faults.add(settings.error_about("", keys, label, message).about(&labels));
+            faults.add(settings.error_about(paths, label, message).about(&labels));
         }
     };
     let known: Vec<&str> = study.contenders.iter().map(|c| c.label.as_str()).collect();
-    let keys = ["contender", "against", "rows"];
-    contenders.into_iter().for_each(|label| check("contender", &keys, label, &known));
+    let paths =
+        ["contenders", "certain", "panels.contender", "panels.contenders", "levels.contender", "against"];
+    contenders.into_iter().for_each(|label| check("contender", &paths, label, &known));
     let known: Vec<&str> = study.groups.iter().map(|group| group.label.as_str()).collect();
-    problems.into_iter().for_each(|label| check("problem group", &["problem"], label, &known));
+    let paths = ["problems", "problem", "panels.problem", "levels.problems", "against"];
+    problems.into_iter().for_each(|label| check("problem group", &paths, label, &known));
     faults.done()
 }
 
-/// Refuses a query that no problem of the group `problems` of `study` has, which the settings name as `word` under one of `keys`.
+/// Refuses a query that no problem of the group `problems` of `study` has, which the settings name as `word` at `path`.
 pub(super) fn query(
     settings: &Settings,
     study: &Study,
     problems: &str,
     name: &str,
-    (keys, word): (&[&str], &str),
+    (path, word): (&str, &str),
 ) -> Result<(), SettingsError> {
     let Some(missing) = study.lacks_query(&[problems], name) else { return Ok(()) };
-    Err(settings.error_about("", keys, word, missing))
+    Err(settings.error_about(&[path], word, missing))
 }
 
 /// The metric called `name`.
 pub(super) fn metric(settings: &Settings, name: &str) -> Result<&'static Metric, SettingsError> {
     let missing = || none_called("metric", name, metric::METRICS.iter().map(|metric| metric.name));
-    metric::find(name).ok_or_else(|| settings.error_about("", &["metric", "x", "y"], name, missing()))
+    metric::find(name).ok_or_else(|| settings.error_about(&["x", "y"], name, missing()))
 }
 
 /// The same, which trials of `study` must have.
@@ -70,7 +72,7 @@ pub(super) fn produced(
         return Ok(metric);
     }
     let message = format!("study `{}` does not produce the metric `{name}`", study.name);
-    Err(settings.error_about("", &["metric", "x", "y"], name, message))
+    Err(settings.error_about(&["x", "y"], name, message))
 }
 
 /// All trials of one contender on one problem group.
@@ -99,7 +101,7 @@ pub(super) fn add_ends(panel: &mut Panel, points: &[[f64; 2]], radius_pt: f64, l
 
 /// The point of the sweeps that people write as `text`.
 pub(super) fn sweep(settings: &Settings, study: &Study, text: &str) -> Result<SweepKey, SettingsError> {
-    study.sweep_called(text).map_err(|message| settings.error_about("", &["sweep"], text, message))
+    study.sweep_called(text).map_err(|message| settings.error_about(&["sweep"], text, message))
 }
 
 /// The printed number of the claim `id`, which the settings name at `key`.

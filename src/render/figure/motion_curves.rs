@@ -29,7 +29,7 @@ sweep = "delta_deg=10.0"
         for panel in &read.panels {
             faults.keep(ask::known(settings, study, [&panel.problem], &panel.contenders));
             if let Some(query) = &read.query {
-                faults.keep(ask::query(settings, study, &panel.problem, query, (&["query"], query)));
+                faults.keep(ask::query(settings, study, &panel.problem, query, ("query", query)));
             }
         }
         let sweep = read.sweep.as_ref().and_then(|text| faults.keep(ask::sweep(settings, study, text)));

@@ -34,7 +34,7 @@ views = ["corner"]
         let mut faults = Faults::default();
         faults.keep(ask::known(settings, study, [&read.problem], &read.contenders));
         if let Some(query) = &read.query {
-            faults.keep(ask::query(settings, study, &read.problem, query, (&["query"], query)));
+            faults.keep(ask::query(settings, study, &read.problem, query, ("query", query)));
         }
         let sweep = read.sweep.as_ref().and_then(|text| faults.keep(ask::sweep(settings, study, text)));
         Ok(Box::new(faults.or(Some(Polyhedra { read, sweep }))?))

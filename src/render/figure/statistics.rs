@@ -298,7 +298,7 @@ impl StatisticsPanel {
         ask::known(&settings, study, problems.iter().chain(group), labels)?;
         for query in &spec.queries {
             let first = problems.first().map_or("", String::as_str);
-            ask::query(&settings, study, first, query, (&["queries"], query))?;
+            ask::query(&settings, study, first, query, ("queries", query))?;
         }
         if let Some(text) = &spec.sweep {
             study
@@ -307,7 +307,9 @@ impl StatisticsPanel {
         }
         let other = |name: &String| {
             let known = paper.studies.iter().map(|study| study.name.as_str());
-            let missing = || settings.error_about("", &["stud"], name, none_called("study", name, known));
+            let missing = || {
+                settings.error_about(&["studies", "levels.study"], name, none_called("study", name, known))
+            };
             paper.study(name).ok_or_else(missing)
         };
         spec.studies.iter().try_for_each(|name| other(name).map(|_| ()))?;
@@ -392,7 +394,7 @@ fn along_called(
             let names = ["problems", "contenders", "queries", "reasons", "instances", "time"];
             let known = names.into_iter().chain(study.sweeps.iter().map(|sweep| sweep.key.as_str()));
             let message = none_called("axis", word, known) + ", and all metrics";
-            settings.error_about("", &["x", "y"], word, message).about(&sweeps_of(&study.name))
+            settings.error_about(&["x", "y"], word, message).about(&sweeps_of(&study.name))
         })?),
     })
 }
@@ -436,13 +438,13 @@ fn statistic(
 /// The claim called `id`, whose criterion `one_instance` says what is to be shown.
 fn claim<'p>(settings: &Settings, paper: &'p Paper, id: &str) -> Result<&'p Claim, SettingsError> {
     let known = paper.claims.iter().map(|claim| claim.id.as_str());
-    let missing = || settings.error_about("", &["x"], id, none_called("claim", id, known)).about("id");
+    let missing = || settings.error_about(&["x", "y"], id, none_called("claim", id, known)).about("id");
     let claim = paper.claim(id).ok_or_else(missing)?;
     if claim.criteria().any(|(own, _)| own == "one_instance") {
         return Ok(claim);
     }
     let message = format!("claim `{id}` has no criterion `one_instance`, which says what is to be shown");
-    Err(settings.error_about("", &["x"], id, message))
+    Err(settings.error_about(&["x", "y"], id, message))
 }
 
 impl Kind for Statistics {

@@ -197,7 +197,7 @@ impl WorkCell {
         for (index, [pose, _]) in self.poses.iter().enumerate() {
             let end = pose.rsplit_once('/').filter(|(_, end)| ["start", "goal"].contains(end));
             let known = if let Some((query, _)) = end {
-                ask::query(settings, study, &self.problems, query, (&["poses"], pose))
+                ask::query(settings, study, &self.problems, query, ("poses", pose))
             } else {
                 let message =
                     format!("`{pose}` is no end of a query; one is accepted, as in `1/start` or `1/goal`");
@@ -206,7 +206,7 @@ impl WorkCell {
             faults.keep(known);
         }
         if !self.contenders.is_empty() {
-            faults.keep(ask::query(settings, study, &self.problems, &self.query, (&["query"], &self.query)));
+            faults.keep(ask::query(settings, study, &self.problems, &self.query, ("query", &self.query)));
         }
         faults.done()
     }
