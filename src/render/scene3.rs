@@ -9,8 +9,9 @@ mod mark;
 mod mesh;
 mod order;
 
-pub use mark::{ScaleBar, SceneMark};
+pub use mark::{ScaleBar, SceneMark, panel};
 
+use super::chart::axis::bounds;
 use super::style::{Rgb, Stroke};
 use mesh::Mesh;
 
@@ -176,13 +177,7 @@ impl Scene {
 
     /// Middle and radius of the box around everything; the unit ball if there is nothing.
     fn ball(&self) -> (Vec3, f64) {
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for point in self.extent() {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(point[axis]);
-                high[axis] = high[axis].max(point[axis]);
-            }
-        }
+        let [low, high] = bounds(self.extent());
         if low[0] > high[0] {
             return ([0.0; 3], 1.0);
         }

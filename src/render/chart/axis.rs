@@ -4,7 +4,17 @@ use crate::render::RenderError;
 use crate::render::canvas::Type;
 use crate::render::style::TextSize;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
+use std::array;
 use std::ops::Range;
+
+/// The least and the greatest of each coordinate of `points`; infinite, the least above, if there are none.
+pub fn bounds<const N: usize>(points: impl IntoIterator<Item = [f64; N]>) -> [[f64; N]; 2] {
+    points.into_iter().fold([[f64::INFINITY; N], [f64::NEG_INFINITY; N]], |[low, high], point| {
+        let with =
+            |ends: [f64; N], pick: fn(f64, f64) -> f64| array::from_fn(|axis| pick(ends[axis], point[axis]));
+        [with(low, f64::min), with(high, f64::max)]
+    })
+}
 
 /// One axis of a panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,11 +74,8 @@ impl Axis {
 
     /// A linear axis over `values` and a margin of 4 %; over `[0, 1]` if there is no finite value.
     pub fn over(label: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for value in values.into_iter().filter(|value| value.is_finite()) {
-            low = low.min(value);
-            high = high.max(value);
-        }
+        let finite = values.into_iter().filter(|value| value.is_finite());
+        let [[mut low], [mut high]] = bounds(finite.map(|value| [value]));
         if low > high {
             (low, high) = (0.0, 1.0);
         }

@@ -81,17 +81,10 @@ impl Sheet {
     }
 
     /// The same with `panels` in the next places.
-    ///
-    /// # Errors
-    /// That of the first panel that cannot be made.
-    pub fn with(
-        mut self,
-        panels: impl IntoIterator<Item = Result<Panel, RenderError>>,
-    ) -> Result<Self, RenderError> {
-        for panel in panels {
-            self.add(panel?);
-        }
-        Ok(self)
+    #[must_use]
+    pub fn with(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
+        self.panels.extend(panels);
+        self
     }
 
     /// Draws everything.

@@ -1,9 +1,10 @@
 //! A planar arm among obstacles: what each tip position is, paths of the tip, the arm at stations along them; or both its
 //! postures at one point.
 
-use super::{Entry, Kind, Scene, Shown, ask};
+use super::{Entry, Scene, Shown, World, ask};
 use crate::render::RenderError;
 use crate::render::canvas::{Align, Stand, Type};
+use crate::render::chart::axis::bounds;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::marks::{Cells, Line, Note, Points, Shape};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
@@ -31,13 +32,7 @@ panels = [
     { problem = "case 2", contenders = ["A* 8"] },
 ]
 "#,
-    build: |settings, study, _paper| {
-        let read: ArmPlane = settings.read()?;
-        for panel in &read.panels {
-            ask::known(settings, study, [&panel.problem], &panel.contenders)?;
-        }
-        Ok(Box::new(read))
-    },
+    build: |settings, _study, _paper| Ok(Box::new(settings.read::<ArmPlane>()?)),
 };
 
 /// Height of a panel's plot, in points.
@@ -84,37 +79,29 @@ fn yes() -> bool {
     true
 }
 
-impl Kind for ArmPlane {
+impl World for ArmPlane {
     fn shown(&self) -> Vec<Shown<'_>> {
-        let panels = self.panels.iter();
-        if self.postures {
-            return panels.flat_map(|panel| Shown::preprocessing(&panel.problem)).collect();
-        }
-        panels.flat_map(|panel| Shown::first(&panel.problem, &panel.contenders)).collect()
+        self.panels.iter().map(|panel| Shown::first(&panel.problem, &panel.contenders)).collect()
     }
 
-    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+    fn sheet(&self, _scene: &Scene<'_>, count: usize) -> Sheet {
+        Sheet::new(Width::Double, count.min(2), PLOT_PT)
+    }
+
+    fn panels(&self, scene: &Scene<'_>, shown: &Shown<'_>, place: usize) -> Result<Vec<Panel>, RenderError> {
         if !self.postures {
-            let panels = self.panels.iter().map(|panel| self.panel(scene, panel));
-            return Sheet::new(Width::Double, self.panels.len().min(2), PLOT_PT).with(panels);
+            return Ok(vec![self.panel(scene, shown, place)?]);
         }
-        let mut sheet = Sheet::new(Width::Double, 2, PLOT_PT);
-        for panel in &self.panels {
-            let both = ask::trace(scene, ask::instance(scene, &panel.problem, 0)?, "branches")?;
-            let stations: Vec<&[f64]> = both.values.chunks(both.width).collect();
-            for (name, station) in [("elbow down", stations[1]), ("elbow up", stations[0])] {
-                sheet.add(posture(name, station, &stations)?);
-            }
-        }
-        Ok(sheet)
+        let both = ask::trace(scene, shown.instance(scene)?, "branches")?;
+        let stations: Vec<&[f64]> = both.values.chunks(both.width).collect();
+        let postures = [("elbow down", stations[1]), ("elbow up", stations[0])];
+        postures.into_iter().map(|(name, station)| posture(name, station, &stations)).collect()
     }
 }
 
 impl ArmPlane {
-    fn panel(&self, scene: &Scene<'_>, setting: &PanelSetting) -> Result<Panel, RenderError> {
-        let rows = setting.contenders.iter().map(|label| ask::trial(scene, &setting.problem, 0, None, label));
-        let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
-        let map = ask::instance(scene, &setting.problem, 0)?;
+    fn panel(&self, scene: &Scene<'_>, shown: &Shown<'_>, place: usize) -> Result<Panel, RenderError> {
+        let (setting, map, rows) = (&self.panels[place], shown.instance(scene)?, shown.trials(scene)?);
         let lattice = &ask::trace(scene, map, "lattice")?.values;
         let low = [lattice[0], lattice[1]];
         let step = lattice[2];
@@ -278,13 +265,12 @@ const MARGINS_CM: [f64; 2] = [22.0, 12.0];
 
 /// A station is θ1, θ2 in degrees, elbow and tip in centimetres.
 fn posture(name: &str, station: &[f64], all: &[&[f64]]) -> Result<Panel, RenderError> {
-    let coordinates = |axis: usize| all.iter().flat_map(move |s| [0.0, s[2 + axis], s[4 + axis]]);
-    let (low, high) = (
-        [0, 1].map(|axis| coordinates(axis).fold(f64::INFINITY, f64::min) - MARGINS_CM[axis]),
-        [0, 1].map(|axis| coordinates(axis).fold(f64::NEG_INFINITY, f64::max) + MARGINS_CM[axis]),
-    );
+    let [low, high] = bounds(all.iter().flat_map(|s| [[0.0; 2], [s[2], s[3]], [s[4], s[5]]]));
     let title = format!("{name}: θ1 = {:.2}°, θ2 = {:.2}°", station[0], station[1]).replace('-', "−");
-    let (x, y) = (Axis::linear("x (cm)", low[0], high[0])?, Axis::linear("y (cm)", low[1], high[1])?);
+    let axis = |label: &str, axis: usize| {
+        Axis::linear(label, low[axis] - MARGINS_CM[axis], high[axis] + MARGINS_CM[axis])
+    };
+    let (x, y) = (axis("x (cm)", 0)?, axis("y (cm)", 1)?);
     let mut panel = Panel::new(title, x, y).trimmed(Trim::Grid).with_equal_scales();
     let elbow = [station[2], station[3]];
     let tip = [station[4], station[5]];

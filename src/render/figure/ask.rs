@@ -85,9 +85,9 @@ pub(super) fn number(row: &Row, column: &str, decimals: usize) -> String {
     row.value(column).map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
 }
 
-/// The points of a trace of coordinates, the two that begin each of its rows.
-pub(super) fn points(trace: &Trace) -> Vec<[f64; 2]> {
-    trace.values.chunks(trace.width).map(|point| [point[0], point[1]]).collect()
+/// The points of a trace of coordinates, which begin each of its rows.
+pub(super) fn points<const N: usize>(trace: &Trace) -> Vec<[f64; N]> {
+    trace.values.chunks(trace.width).filter_map(|row| row.first_chunk().copied()).collect()
 }
 
 /// Marks the first of `points` as the start and the last as the goal, each as named.
@@ -183,19 +183,19 @@ pub(super) fn trial<'s>(
     })
 }
 
-/// The first trial of `contender` on `problems`, at one point of the sweeps if one is requested.
+/// The first trial of `contender` on `problems` that `is_wanted`.
 ///
 /// # Errors
 /// [`RenderError::NotStored`] if there is none.
-pub(super) fn trial_at<'s>(
+pub(super) fn wanted_trial<'s>(
     scene: &Scene<'s>,
     problems: &str,
-    at: Option<&SweepKey>,
     contender: &str,
+    is_wanted: impl Fn(&Row) -> bool,
 ) -> Result<&'s Row, RenderError> {
     let mut rows = scene.run.rows(problems, contender).into_iter();
     let missing = || RenderError::NotStored { what: format!("a trial of `{contender}` on `{problems}`") };
-    rows.find(|row| at.is_none_or(|sweep| row.key.sweep == *sweep)).ok_or_else(missing)
+    rows.find(|row| is_wanted(row)).ok_or_else(missing)
 }
 
 /// The instance whose saving is nearest to the median over all instances; the first if nothing is saved. The saving is

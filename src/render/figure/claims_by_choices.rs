@@ -58,11 +58,11 @@ const SETTINGS: &str = "The defaults, every other option that votes, alone, and 
 
 /// Which settings agree with what the studies were fitted to: one a row, the options of the fitted choice side by side, with
 /// `words` along the axis.
-fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
+fn settings(scene: &Scene<'_>, words: &str) -> Sheet {
     let rows: &[SettingFit] = scene.verdicts.explored.as_ref().map_or(&[], |explored| &explored.fits);
     let choices = &scene.evidence.paper.choices;
     let Some(fitted) = choices.iter().find(|choice| choice.fitted).filter(|_| !rows.is_empty()) else {
-        return Ok(Sheet::new(Width::Double, 1, ROW_PT).titled("No interpretation was explored."));
+        return Sheet::new(Width::Double, 1, ROW_PT).titled("No interpretation was explored.");
     };
     let options: Vec<&str> = fitted.options.keys().map(String::as_str).collect();
     let names = Axis::names("", named(rows).into_iter().rev());
@@ -81,7 +81,7 @@ fn settings(scene: &Scene<'_>, words: &str) -> Result<Sheet, RenderError> {
         lines: Some(Stroke::solid(GREY.mixed(WHITE, 0.6), 0.4)),
         keys: keys(&FITS, &rows.iter().flat_map(|row| row.fits.values().copied()).collect()),
     });
-    Sheet::new(Width::Double, 1, (rows.len() + 3) as f64 * ROW_PT).with([Ok(panel)])
+    Sheet::new(Width::Double, 1, (rows.len() + 3) as f64 * ROW_PT).with([panel])
 }
 
 /// The rows' names, from above; those that are too long to stand beside a row are numbers, which the details explain.
@@ -128,7 +128,7 @@ impl Kind for ClaimsByChoices {
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
         if let Some(words) = &self.fitted {
-            return settings(scene, words);
+            return Ok(settings(scene, words));
         }
         let rows = Self::rows(scene);
         let choices = &scene.evidence.paper.choices;
@@ -157,7 +157,7 @@ impl Kind for ClaimsByChoices {
             keys: keys(&LOOKS, &shown),
         });
         let height = rows.len() as f64 * ROW_PT + 2.0 * ROW_PT;
-        Sheet::new(Width::Double, 1, height).with([Ok(panel)])
+        Ok(Sheet::new(Width::Double, 1, height).with([panel]))
     }
 }
 

@@ -1,8 +1,9 @@
 //! Searches on grid maps: opened cells of each side at the end or at moments before, raw and tidied path, refused lines of
 //! sight.
 
-use super::{Entry, Kind, Scene, Shown, ask};
+use super::{Entry, Scene, Shown, World, ask};
 use crate::render::RenderError;
+use crate::render::chart::axis::bounds;
 use crate::render::chart::legend::{Key, cell_key};
 use crate::render::chart::marks::{Cells, Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
@@ -27,9 +28,8 @@ pub static ENTRY: Entry = Entry {
 problems = ["W1"]
 contenders = ["A*", "Improved A*"]
 "#,
-    build: |settings, study, paper| {
+    build: |settings, _study, paper| {
         let read: GridSearch = settings.read()?;
-        ask::known(settings, study, &read.problems, &read.contenders)?;
         let mut printed = Vec::new();
         for (index, row) in read.printed.iter().enumerate() {
             ask::all_printed(settings, paper, &format!("printed.{index}"), row)?;
@@ -81,29 +81,27 @@ const GOAL_SIDE: Rgb = ORANGE.mixed(WHITE, 0.2);
 const BOTH_SIDES: Rgb = PURPLE.mixed(BLACK, 0.15);
 const BLOCKED: Rgb = BLACK.mixed(WHITE, 0.25);
 
-impl Kind for Ready {
+impl World for Ready {
     fn shown(&self) -> Vec<Shown<'_>> {
-        let read = &self.read;
-        read.problems.iter().flat_map(|problem| Shown::first(problem, &read.contenders)).collect()
+        self.read.problems.iter().map(|problem| Shown::first(problem, &self.read.contenders)).collect()
     }
 
-    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+    fn sheet(&self, _scene: &Scene<'_>, count: usize) -> Sheet {
+        Sheet::new(Width::Double, count, if self.read.moments.is_empty() { 215.0 } else { 150.0 })
+    }
+
+    fn panels(&self, scene: &Scene<'_>, shown: &Shown<'_>, _place: usize) -> Result<Vec<Panel>, RenderError> {
         let mut panels = Vec::new();
-        let read = &self.read;
-        for problem in &read.problems {
-            let map = |contender: &String| Map::new(scene, ask::trial(scene, problem, 0, None, contender)?);
-            let maps = read.contenders.iter().map(map).collect::<Result<Vec<_>, _>>()?;
-            for (place, map) in maps.iter().enumerate() {
-                let printed = self.printed.get(place).map(String::as_str);
-                match (&read.moments[..], read.tidying) {
-                    ([], true) => panels.push(map.tidied(problem)),
-                    ([], false) => panels.push(map.searched(printed)),
-                    (moments, _) => panels.extend(moments.iter().map(|share| map.moment(*share))),
-                }
+        for (place, row) in shown.trials(scene)?.into_iter().enumerate() {
+            let map = Map::new(scene, row)?;
+            let printed = self.printed.get(place).map(String::as_str);
+            match (&self.read.moments[..], self.read.tidying) {
+                ([], true) => panels.push(map.tidied(shown.problems)),
+                ([], false) => panels.push(map.searched(printed)),
+                (moments, _) => panels.extend(moments.iter().map(|share| map.moment(*share))),
             }
         }
-        let height = if read.moments.is_empty() { 215.0 } else { 150.0 };
-        Sheet::new(Width::Double, panels.len(), height).with(panels)
+        panels.into_iter().collect()
     }
 }
 
@@ -244,18 +242,13 @@ impl<'a> Map<'a> {
 
     /// An empty panel over a square part of the map that holds `points` and some room around them.
     fn panel_about(&self, title: String, points: &[[f64; 2]]) -> Result<Panel, RenderError> {
-        let of = |axis: usize, pick: fn(f64, f64) -> f64, start: f64| {
-            points.iter().map(|point| point[axis]).fold(start, pick)
-        };
-        let ends =
-            [0, 1].map(|axis| [of(axis, f64::min, f64::INFINITY), of(axis, f64::max, f64::NEG_INFINITY)]);
+        let [low, high] = bounds(points.iter().copied());
         let least_side = self.size[0].min(self.size[1]) as f64;
-        let side =
-            ends.iter().map(|[low, high]| (high - low).ceil() + 3.0).fold(0.0, f64::max).min(least_side);
+        let side = [0, 1].map(|axis| (high[axis] - low[axis]).ceil() + 3.0);
+        let side = side.into_iter().fold(0.0, f64::max).min(least_side);
         let part = [0, 1].map(|axis| {
-            let [low, high] = ends[axis];
-            let from =
-                (f64::midpoint(low, high) - side / 2.0).round().clamp(0.0, self.size[axis] as f64 - side);
+            let middle = f64::midpoint(low[axis], high[axis]);
+            let from = (middle - side / 2.0).round().clamp(0.0, self.size[axis] as f64 - side);
             [from, from + side]
         });
         window(title, part)

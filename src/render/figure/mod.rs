@@ -14,7 +14,7 @@ mod statistics;
 mod work_cell;
 
 use super::RenderError;
-use super::chart::Sheet;
+use super::chart::{Panel, Sheet};
 use super::latex::Table;
 use crate::analysis::evidence::{Evidence, Run};
 use crate::analysis::tabulated::{Trials, trials};
@@ -22,9 +22,12 @@ use crate::analysis::verdict::Verdicts;
 use base::settings::{Accepted, Faults, Settings, SettingsError, did_you_mean};
 use serde::Serialize;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use study::Study;
+use study::key::InstanceKey;
 use study::paper::Paper;
-use study::spec::FigureSpec;
+use study::record::Row;
+use study::spec::{FigureSpec, TrialsSpec};
 use toml::Table as Toml;
 
 /// What a figure is drawn from.
@@ -69,6 +72,47 @@ pub trait Kind {
     }
 }
 
+/// A kind that draws worlds: panels for each item of the list that also says which trials a spec must keep.
+pub trait World {
+    /// The trials whose traces it draws, in the order of their panels.
+    fn shown(&self) -> Vec<Shown<'_>>;
+
+    /// The panels of `shown`, the item of number `place`.
+    ///
+    /// # Errors
+    /// As [`Kind::draw`].
+    fn panels(&self, scene: &Scene<'_>, shown: &Shown<'_>, place: usize) -> Result<Vec<Panel>, RenderError>;
+
+    /// An empty sheet with room for `count` panels.
+    fn sheet(&self, scene: &Scene<'_>, count: usize) -> Sheet;
+
+    /// As [`Kind::table`].
+    ///
+    /// # Errors
+    /// As [`Kind::draw`].
+    fn table(&self, _scene: &Scene<'_>, _label: &str, _caption: &str) -> Result<Option<Table>, RenderError> {
+        Ok(None)
+    }
+}
+
+impl<W: World> Kind for W {
+    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+        let mut panels = Vec::new();
+        for (place, shown) in World::shown(self).iter().enumerate() {
+            panels.extend(self.panels(scene, shown, place)?);
+        }
+        Ok(self.sheet(scene, panels.len()).with(panels))
+    }
+
+    fn shown(&self) -> Vec<Shown<'_>> {
+        World::shown(self)
+    }
+
+    fn table(&self, scene: &Scene<'_>, label: &str, caption: &str) -> Result<Option<Table>, RenderError> {
+        World::table(self, scene, label, caption)
+    }
+}
+
 /// Curves along a sweep as numbers, for those who look values up.
 #[derive(Serialize)]
 pub struct Curves {
@@ -99,34 +143,43 @@ pub struct CurveLine {
     pub is_printed: bool,
 }
 
-/// Trials whose traces a figure draws.
+/// Trials on one instance whose traces a figure draws.
 pub struct Shown<'a> {
     /// The problem group.
-    pub problems: &'a str,
-    /// The contender; any if the group's preprocessing is drawn.
-    pub contender: Option<&'a str>,
+    pub problems: &'a String,
+    /// The contenders; none if preprocessing alone is drawn.
+    pub contenders: &'a [String],
     /// The instance.
     pub instance: u32,
 }
 
 impl<'a> Shown<'a> {
-    /// The first instance of `problems`, by each of `contenders`.
-    fn first(problems: &'a str, contenders: &'a [String]) -> Vec<Self> {
-        let by = |label: &'a String| Self { problems, contender: Some(label), instance: 0 };
-        contenders.iter().map(by).collect()
+    /// The first instance of `problems`, by `contenders`.
+    fn first(problems: &'a String, contenders: &'a [String]) -> Self {
+        Self { problems, contenders, instance: 0 }
     }
 
-    /// What was preprocessed for the first instance of `problems`.
-    fn preprocessing(problems: &'a str) -> Vec<Self> {
-        vec![Self { problems, contender: None, instance: 0 }]
+    /// The first trial of each contender.
+    fn trials<'s>(&self, scene: &Scene<'s>) -> Result<Vec<&'s Row>, RenderError> {
+        let trial = |label: &String| ask::trial(scene, self.problems, self.instance, None, label);
+        self.contenders.iter().map(trial).collect()
     }
 
-    /// Whether `study` keeps it.
-    fn is_kept(&self, study: &Study) -> bool {
-        study.kept().filter(|trials| trials.problems == self.problems).any(|trials| {
-            let is_by = |label: &str| trials.contender.as_deref().is_none_or(|kept| kept == label);
-            trials.has_instance(self.instance) && self.contender.is_none_or(is_by)
-        })
+    /// What names the instance.
+    fn instance<'s>(&self, scene: &Scene<'s>) -> Result<&'s Arc<InstanceKey>, RenderError> {
+        ask::instance(scene, self.problems, self.instance)
+    }
+
+    /// The contenders of whom `study` keeps no such trial; `None` stands for all.
+    fn lacks(&self, study: &Study) -> Vec<Option<&'a String>> {
+        let is_kept =
+            |kept: &&TrialsSpec| kept.problems == *self.problems && kept.has_instance(self.instance);
+        let by: Vec<_> = study.kept().filter(is_kept).map(|kept| kept.contender.as_ref()).collect();
+        let is_lacking = |label: &&String| !by.contains(&None) && !by.contains(&Some(label));
+        match self.contenders {
+            [] if by.is_empty() => vec![None],
+            all => all.iter().filter(is_lacking).map(Some).collect(),
+        }
     }
 }
 
@@ -134,7 +187,7 @@ impl<'a> Shown<'a> {
 pub fn drawn(study: &Study, paper: &Paper) -> BTreeSet<(String, u32)> {
     let kinds = study.figures.iter().filter_map(|figure| build(figure, study, paper).ok());
     let shown = |kind: Box<dyn Kind>| -> Vec<(String, u32)> {
-        kind.shown().iter().map(|shown| (shown.problems.to_owned(), shown.instance)).collect()
+        kind.shown().iter().map(|shown| (shown.problems.clone(), shown.instance)).collect()
     };
     kinds.flat_map(shown).collect()
 }
@@ -243,6 +296,11 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
         let message = format!("figure `{}` has no settings: {}", figure.id.get_ref(), error.message());
         study.document.error(figure.id.span(), message).about("settings")
     })?;
+    let mut faults = Faults::default();
+    for shown in kind.shown() {
+        faults.keep(ask::known(&settings, study, [shown.problems], shown.contenders));
+    }
+    faults.done()?;
     check_kept(figure, study, kind.as_ref())?;
     Ok(kind)
 }
@@ -250,17 +308,16 @@ pub fn build(figure: &FigureSpec, study: &Study, paper: &Paper) -> Result<Box<dy
 /// Refuses a figure that draws what no trial of the study would keep.
 fn check_kept(figure: &FigureSpec, study: &Study, kind: &dyn Kind) -> Result<(), SettingsError> {
     let mut faults = Faults::default();
-    for Shown { problems, contender, instance } in
-        kind.shown().into_iter().filter(|shown| !shown.is_kept(study))
-    {
-        let id = figure.id.get_ref();
-        let instances = instance + 1;
-        let by = contender.map_or_else(String::new, |label| format!(", contender = \"{label}\""));
-        let message = format!(
-            "figure `{id}` draws what is kept of trials on `{problems}`, and none is kept; accepted is \
-             shows = [{{ problems = \"{problems}\"{by}, instances = {instances} }}]"
-        );
-        faults.add(study.document.error(figure.id.span(), message));
+    for shown in kind.shown() {
+        let (id, problems, instances) = (figure.id.get_ref(), shown.problems, shown.instance + 1);
+        for contender in shown.lacks(study) {
+            let by = contender.map_or_else(String::new, |label| format!(", contender = \"{label}\""));
+            let message = format!(
+                "figure `{id}` draws what is kept of trials on `{problems}`, and none is kept; accepted is \
+                 shows = [{{ problems = \"{problems}\"{by}, instances = {instances} }}]"
+            );
+            faults.add(study.document.error(figure.id.span(), message));
+        }
     }
     faults.done()
 }

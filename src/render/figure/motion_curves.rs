@@ -27,7 +27,6 @@ sweep = "delta_deg=10.0"
         let read: Read = settings.read()?;
         let mut faults = Faults::default();
         for panel in &read.panels {
-            faults.keep(ask::known(settings, study, [&panel.problem], &panel.contenders));
             if let Some(query) = &read.query {
                 faults.keep(ask::query(settings, study, &panel.problem, query, ("query", query)));
             }
@@ -112,7 +111,7 @@ impl Quantity {
 
 impl Kind for MotionCurves {
     fn shown(&self) -> Vec<Shown<'_>> {
-        self.read.panels.iter().flat_map(|panel| Shown::first(&panel.problem, &panel.contenders)).collect()
+        self.read.panels.iter().map(|panel| Shown::first(&panel.problem, &panel.contenders)).collect()
     }
 
     fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
@@ -154,7 +153,8 @@ impl MotionCurves {
                 ask::shared_instance(scene, problem, query, &panel.contenders, self.read.quantity.shown().0)?;
             return ask::trial(scene, problem, instance, Some(query), contender);
         }
-        ask::trial_at(scene, problem, self.sweep.as_ref(), contender)
+        let is_there = |row: &Row| self.sweep.as_ref().is_none_or(|sweep| row.key.sweep == *sweep);
+        ask::wanted_trial(scene, problem, contender, is_there)
     }
 
     /// One contender's motion, on the scale of `all`.

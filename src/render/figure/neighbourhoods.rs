@@ -1,6 +1,6 @@
 //! Neighbourhoods of planners that move over a lattice: the region, and what was drawn from it.
 
-use super::{Entry, Kind, Scene, Shown, ask};
+use super::{Entry, Scene, Shown, World, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Line, Points};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
@@ -21,11 +21,7 @@ pub static ENTRY: Entry = Entry {
 problem = "case 1"
 contenders = ["A* 8"]
 "#,
-    build: |settings, study, _paper| {
-        let read: Neighbourhoods = settings.read()?;
-        ask::known(settings, study, [&read.problem], &read.contenders)?;
-        Ok(Box::new(read))
-    },
+    build: |settings, _study, _paper| Ok(Box::new(settings.read::<Neighbourhoods>()?)),
 };
 
 /// Height of a panel's plot, in points.
@@ -42,16 +38,18 @@ struct Neighbourhoods {
     octagon_radius: Option<f64>,
 }
 
-impl Kind for Neighbourhoods {
+impl World for Neighbourhoods {
     fn shown(&self) -> Vec<Shown<'_>> {
-        Shown::first(&self.problem, &self.contenders)
+        vec![Shown::first(&self.problem, &self.contenders)]
     }
 
-    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let rows = self.contenders.iter().map(|label| ask::trial(scene, &self.problem, 0, None, label));
-        let rows: Vec<&Row> = rows.collect::<Result<_, _>>()?;
-        let width = if rows.len() == 1 { Width::Single } else { Width::Double };
-        let panels = rows.iter().map(|row| {
+    fn sheet(&self, _scene: &Scene<'_>, count: usize) -> Sheet {
+        let width = if count == 1 { Width::Single } else { Width::Double };
+        Sheet::new(width, count.min(4), PLOT_PT)
+    }
+
+    fn panels(&self, scene: &Scene<'_>, shown: &Shown<'_>, _place: usize) -> Result<Vec<Panel>, RenderError> {
+        let panels = shown.trials(scene)?.into_iter().map(|row| {
             let drawn = scene.run.trace(&row.key, "drawn");
             let mut panel = panel(row, ask::trace(scene, &row.key, "region")?, drawn)?;
             if let Some(radius) = self.octagon_radius {
@@ -59,7 +57,7 @@ impl Kind for Neighbourhoods {
             }
             Ok(panel)
         });
-        Sheet::new(width, rows.len().min(4), PLOT_PT).with(panels)
+        panels.collect()
     }
 }
 

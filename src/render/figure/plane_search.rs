@@ -1,6 +1,6 @@
 //! A particle's searches on one roadmap in the plane: the first searches of each contender, one panel each.
 
-use super::{Entry, Kind, Scene, Shown, ask};
+use super::{Entry, Scene, Shown, World, ask};
 use crate::render::RenderError;
 use crate::render::chart::marks::{Behind, Line, Note, Points, Shape};
 use crate::render::chart::{Axis, Panel, Sheet, Trim};
@@ -10,6 +10,8 @@ use crate::render::style::{
 use base::settings::Accepted;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::sync::Arc;
+use study::key::InstanceKey;
 use study::record::Row;
 
 /// The registry's entry.
@@ -24,11 +26,7 @@ instance = 13
 radius_mm = 220
 panels = [{ contender = "Original A*", title = "", bare = true }]
 "#,
-    build: |settings, study, _paper| {
-        let read: PlaneSearch = settings.read()?;
-        ask::known(settings, study, [&read.problems], read.panels.iter().map(|panel| &panel.contender))?;
-        Ok(Box::new(read))
-    },
+    build: |settings, _study, _paper| Ok(Box::new(settings.read::<PlaneSearch>()?)),
 };
 
 #[derive(Deserialize, JsonSchema)]
@@ -64,27 +62,29 @@ struct SearchPanel {
     bare: bool,
 }
 
-impl Kind for PlaneSearch {
+impl World for PlaneSearch {
     fn shown(&self) -> Vec<Shown<'_>> {
-        let shown = self.panels.iter().map(|panel| {
-            let contender = (!panel.bare).then_some(panel.contender.as_str());
-            Shown { problems: &self.problems, contender, instance: self.instance }
-        });
-        shown.collect()
+        let contenders = self.panels.iter().map(|panel| std::slice::from_ref(&panel.contender));
+        let (problems, instance) = (&self.problems, self.instance);
+        contenders.map(|contenders| Shown { problems, contenders, instance }).collect()
     }
 
-    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let mut sheet = Sheet::new(Width::Double, self.panels.len().min(2), 200.0);
-        for setting in &self.panels {
-            let mut panel = self.map(scene, &setting.title)?;
-            let row = ask::trial(scene, &self.problems, self.instance, None, &setting.contender)?;
+    fn sheet(&self, _scene: &Scene<'_>, count: usize) -> Sheet {
+        Sheet::new(Width::Double, count.min(2), 200.0)
+    }
+
+    fn panels(&self, scene: &Scene<'_>, shown: &Shown<'_>, place: usize) -> Result<Vec<Panel>, RenderError> {
+        let setting = &self.panels[place];
+        let map = shown.instance(scene)?;
+        let panel = |row: &Row| {
+            let mut panel = plane(scene, map, &setting.title)?;
             let path = ask::points(ask::trace(scene, &row.key, "path")?);
             let search = Search { scene, row, path: &path, setting, radius_mm: self.radius_mm };
             // Obstacles are drawn over samples and ways: no mark of what is free covers a wall.
             if !setting.bare {
                 search.add_ways(&mut panel)?;
             }
-            self.obstacles(&mut panel, scene)?;
+            add_obstacles(&mut panel, scene, map)?;
             if !setting.bare {
                 match setting.straightened {
                     Some(kept) => search.add_straightened(&mut panel, kept)?,
@@ -92,38 +92,33 @@ impl Kind for PlaneSearch {
                 }
             }
             ask::add_ends(&mut panel, &path, 3.4, [(Marker::Square, GREEN), (Marker::Square, ORANGE)]);
-            sheet.add(panel);
-        }
-        Ok(sheet)
+            Ok(panel)
+        };
+        shown.trials(scene)?.into_iter().map(panel).collect()
     }
 }
 
-impl PlaneSearch {
-    /// The plane with the samples of its roadmap.
-    fn map(&self, scene: &Scene<'_>, title: &str) -> Result<Panel, RenderError> {
-        let instance = ask::instance(scene, &self.problems, self.instance)?;
-        let size = ask::trace(scene, instance, "size_mm")?;
-        let x = Axis::linear("x (mm)", 0.0, size.values[0])?;
-        let mut panel = Panel::new(title, x, Axis::linear("y (mm)", 0.0, size.values[1])?)
-            .trimmed(Trim::Frame)
-            .with_equal_scales();
-        let samples = ask::points(ask::trace(scene, instance, "samples")?);
-        let samples = Points::unlabelled(samples, Marker::Circle, 1.2, GREY.mixed(WHITE, 0.35));
-        panel.add(Behind(samples.labelled("sample")));
-        Ok(panel)
-    }
+/// The plane with the samples of its roadmap.
+fn plane(scene: &Scene<'_>, map: &Arc<InstanceKey>, title: &str) -> Result<Panel, RenderError> {
+    let size = ask::trace(scene, map, "size_mm")?;
+    let x = Axis::linear("x (mm)", 0.0, size.values[0])?;
+    let mut panel = Panel::new(title, x, Axis::linear("y (mm)", 0.0, size.values[1])?)
+        .trimmed(Trim::Frame)
+        .with_equal_scales();
+    let samples = ask::points(ask::trace(scene, map, "samples")?);
+    let samples = Points::unlabelled(samples, Marker::Circle, 1.2, GREY.mixed(WHITE, 0.35));
+    panel.add(Behind(samples.labelled("sample")));
+    Ok(panel)
+}
 
-    fn obstacles(&self, panel: &mut Panel, scene: &Scene<'_>) -> Result<(), RenderError> {
-        let instance = ask::instance(scene, &self.problems, self.instance)?;
-        let corners = ask::trace(scene, instance, "obstacles")?;
-        let numbered: Vec<[f64; 3]> = corners.values.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
-        for obstacle in numbered.chunk_by(|a, b| a[0] == b[0]) {
-            let fill = Some(Fill::solid(BLUE.mixed(WHITE, 0.45)));
-            let corners = obstacle.iter().map(|c| [c[1], c[2]]).collect();
-            panel.add(Shape { corners, fill, stroke: None, label: "obstacle".to_owned() });
-        }
-        Ok(())
+fn add_obstacles(panel: &mut Panel, scene: &Scene<'_>, map: &Arc<InstanceKey>) -> Result<(), RenderError> {
+    let numbered: Vec<[f64; 3]> = ask::points(ask::trace(scene, map, "obstacles")?);
+    for obstacle in numbered.chunk_by(|a, b| a[0] == b[0]) {
+        let fill = Some(Fill::solid(BLUE.mixed(WHITE, 0.45)));
+        let corners = obstacle.iter().map(|c| [c[1], c[2]]).collect();
+        panel.add(Shape { corners, fill, stroke: None, label: "obstacle".to_owned() });
     }
+    Ok(())
 }
 
 /// One trial with what a panel shows of it.

@@ -1,16 +1,17 @@
 //! Scenes of solid, depth-sorted polyhedra: tip paths, or the whole arm along its path with the last posture solid; one row
 //! a contender, one panel a view.
 
-use super::{Entry, Kind, Scene, Shown, ask};
+use super::{Entry, Scene, Shown, World, ask};
 use crate::render::RenderError;
+use crate::render::chart::axis::bounds;
 use crate::render::chart::legend::cell_key;
 use crate::render::chart::{Key, Panel, Sheet};
-use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark, Vec3, box_corners};
+use crate::render::scene3::{Camera, Paint, Scene as Solids, Vec3, box_corners, panel};
 use crate::render::style::{
     BLACK, BLUE, Dash, GREEN, ORANGE, PURPLE, Rgb, SKY, Stroke, VERMILLION, WHITE, Width,
 };
+use ask::points;
 use base::settings::{Accepted, Faults};
-use engine::planner::Trace;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -32,7 +33,6 @@ views = ["corner"]
     build: |settings, study, _paper| {
         let read: Read = settings.read()?;
         let mut faults = Faults::default();
-        faults.keep(ask::known(settings, study, [&read.problem], &read.contenders));
         if let Some(query) = &read.query {
             faults.keep(ask::query(settings, study, &read.problem, query, ("query", query)));
         }
@@ -86,51 +86,46 @@ enum View {
 }
 
 impl View {
-    fn camera(self) -> Camera {
+    /// Its name in a panel's title, and its camera.
+    fn camera(self) -> (&'static str, Camera) {
         match self {
-            Self::Front => Camera::parallel(-80.0, 14.0),
-            Self::Side => Camera::parallel(-10.0, 14.0),
-            Self::Corner => Camera::parallel(-52.0, 24.0),
-        }
-    }
-
-    /// Its name in a panel's title.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Front => "front",
-            Self::Side => "side",
-            Self::Corner => "corner",
+            Self::Front => ("front", Camera::parallel(-80.0, 14.0)),
+            Self::Side => ("side", Camera::parallel(-10.0, 14.0)),
+            Self::Corner => ("corner", Camera::parallel(-52.0, 24.0)),
         }
     }
 }
 
-impl Kind for Polyhedra {
+impl World for Polyhedra {
     fn shown(&self) -> Vec<Shown<'_>> {
-        Shown::first(&self.read.problem, &self.read.contenders)
+        vec![Shown::first(&self.read.problem, &self.read.contenders)]
     }
 
-    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let Read { contenders, views, arm: is_arm, .. } = &self.read;
+    fn sheet(&self, _scene: &Scene<'_>, count: usize) -> Sheet {
+        let (height, note) = if self.read.arm { (220.0, "Rod radii are assumed.") } else { (205.0, "") };
         // One view each: contenders stand side by side.
-        let columns = if views.len() == 1 { contenders.len() } else { views.len() };
-        let mut sheet = Sheet::new(Width::Double, columns, if *is_arm { 220.0 } else { 205.0 });
-        let note = if *is_arm { " Rod radii are assumed." } else { "" };
-        sheet = sheet.noted(format!("What is hidden of a path is dashed.{note}"));
-        for contender in contenders {
+        let columns = if self.read.views.len() == 1 { count } else { self.read.views.len() };
+        Sheet::new(Width::Double, columns, height).noted("What is hidden of a path is dashed.").noted(note)
+    }
+
+    fn panels(&self, scene: &Scene<'_>, shown: &Shown<'_>, _place: usize) -> Result<Vec<Panel>, RenderError> {
+        let Read { views, arm: is_arm, .. } = &self.read;
+        let mut panels = Vec::new();
+        for contender in shown.contenders {
             let row = self.row(scene, contender)?;
-            for view in views {
+            for (name, camera) in views.iter().map(|view| view.camera()) {
                 let mut solids = Solids::default();
                 let around = add_obstacles(&mut solids, scene, &row.key.on, !is_arm)?;
                 let mut keys =
                     if *is_arm { arm(&mut solids, scene, row)? } else { paths(&mut solids, scene, row)? };
                 keys.extend(around);
                 keys.extend(self.grown(&mut solids, scene, &row.key.on)?);
-                let seen = if views.len() > 1 { format!(", {}", view.name()) } else { String::new() };
+                let seen = if views.len() > 1 { format!(", {name}") } else { String::new() };
                 let title = format!("{}: {}{seen}", row.key.contender, self.outcome_text(row));
-                sheet.add(panel(title, solids, *view, keys));
+                panels.push(panel(title, solids, camera, (20.0, "cm"), keys));
             }
         }
-        Ok(sheet)
+        Ok(panels)
     }
 }
 
@@ -146,12 +141,11 @@ impl Polyhedra {
         let pedestal = scene.run.trace(of, "pedestal").map(|found| found.values[0] as usize);
         let stroke = Stroke::solid(BLUE, 0.5).dashed(Dash::Dotted);
         for (body, (vertices, _)) in stored_bodies(scene, of)?.into_iter().enumerate() {
-            let bound = |axis: usize, least: f64, pick: fn(f64, f64) -> f64| {
-                vertices.iter().map(|vertex| vertex[axis]).fold(least, pick)
-            };
-            let low = [0, 1, 2].map(|axis| bound(axis, f64::INFINITY, f64::min) - by);
-            let high = [0, 1, 2].map(|axis| bound(axis, f64::NEG_INFINITY, f64::max) + by);
-            for edge in edges(low, high).into_iter().filter(|_| pedestal != Some(body)) {
+            let [low, high] = bounds(vertices);
+            for edge in edges(low.map(|x| x - by), high.map(|x| x + by))
+                .into_iter()
+                .filter(|_| pedestal != Some(body))
+            {
                 solids.polyline(edge.to_vec(), stroke);
             }
         }
@@ -187,16 +181,13 @@ impl Polyhedra {
     }
 
     fn row<'a>(&self, scene: &'a Scene<'_>, contender: &str) -> Result<&'a Row, RenderError> {
-        let rows = scene.run.rows(&self.read.problem, contender);
         let chosen = if self.read.first_alone { self.chosen(scene) } else { None };
-        let is_wanted = |row: &&Row| {
+        let is_wanted = |row: &Row| {
             self.sweep.as_ref().is_none_or(|sweep| row.key.sweep == *sweep)
                 && self.read.query.as_ref().is_none_or(|query| row.query() == query)
                 && chosen.is_none_or(|number| row.instance() == number)
         };
-        rows.into_iter().find(is_wanted).ok_or_else(|| RenderError::NotStored {
-            what: format!("a trial of `{contender}` on `{}`", self.read.problem),
-        })
+        ask::wanted_trial(scene, &self.read.problem, contender, is_wanted)
     }
 }
 
@@ -287,11 +278,6 @@ fn paths(solids: &mut Solids, scene: &Scene<'_>, row: &Row) -> Result<Vec<Key>, 
     Ok(keys)
 }
 
-/// The points of a trace three numbers wide.
-fn points(trace: &Trace) -> Vec<Vec3> {
-    trace.values.chunks(trace.width).map(|point| [point[0], point[1], point[2]]).collect()
-}
-
 /// Adds the obstacles of the preprocessed object `of`, what the arm stands on, and with `frame` the edges of the domain; the
 /// legend's entries.
 fn add_obstacles(
@@ -363,10 +349,4 @@ fn edges(low: Vec3, high: Vec3) -> Vec<[Vec3; 2]> {
     let corners = box_corners(low, high);
     let pairs = (0..8).flat_map(|index| (0..3).map(move |axis| [index, index | 1 << axis]));
     pairs.filter(|[from, to]| from != to).map(|ends| ends.map(|index| corners[index])).collect()
-}
-
-/// A panel that shows `scene`.
-fn panel(title: String, scene: Solids, view: View, keys: Vec<Key>) -> Panel {
-    let bar = Some(ScaleBar { length: 20.0, label: "20 cm".to_owned() });
-    SceneMark { scene, camera: view.camera(), bar, keys }.panel(title)
 }

@@ -455,10 +455,8 @@ impl Kind for Statistics {
     fn shown(&self) -> Vec<Shown<'_>> {
         let mut shown = Vec::new();
         for panel in self.panels.iter().filter(|panel| panel.statistic == Statistic::OverTime) {
-            for (problems, contender) in
-                panel.problems.iter().flat_map(|group| panel.contenders.iter().map(move |own| (group, own)))
-            {
-                let of = |instance| Shown { problems, contender: Some(contender), instance };
+            for problems in &panel.problems {
+                let of = |instance| Shown { problems, contenders: &panel.contenders, instance };
                 shown.extend((0..self.instances).map(of));
             }
         }

@@ -1,11 +1,12 @@
 //! A work cell from two sides: its robot at several poses, or the ways of its tool.
 
-use super::{Entry, Kind, Scene, Shown, ask, noun};
+use super::{Entry, Scene, Shown, World, ask, noun};
 use crate::render::RenderError;
+use crate::render::chart::axis::bounds;
 use crate::render::chart::legend::cell_key;
-use crate::render::chart::{Key, Panel, Sheet, axis};
+use crate::render::chart::{Panel, Sheet, axis};
 use crate::render::latex::{Cell, Column, Table};
-use crate::render::scene3::{Camera, Paint, ScaleBar, Scene as Solids, SceneMark};
+use crate::render::scene3::{Camera, Paint, Scene as Solids, panel};
 use crate::render::style::{Dash, GREY, Rgb, Stroke, WHITE, Width, YELLOW, series_color};
 use base::settings::{Accepted, Faults, Settings, SettingsError};
 use engine::planner::Trace;
@@ -30,7 +31,6 @@ at_once = 3
 "#,
     build: |settings, study, _paper| {
         let read: WorkCell = settings.read()?;
-        ask::known(settings, study, [&read.problems], &read.contenders)?;
         if read.poses.is_empty() == read.contenders.is_empty() {
             return Err(settings
                 .error("either poses or contenders are accepted")
@@ -106,19 +106,12 @@ fn floor_height(scene: &Scene<'_>, instance: &Arc<InstanceKey>) -> Option<f64> {
 /// The floor below everything that stands in the cell, the robot at its queries' ends among it.
 fn floor(scene: &Scene<'_>, instance: &Arc<InstanceKey>, stills: [&Trace; 2], height: f64) -> Vec<[f64; 3]> {
     let bodies = scene.run.traces(instance).filter(|trace| trace.name.starts_with("body "));
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for trace in stills.into_iter().chain(bodies) {
-        for row in trace.values.chunks(trace.width) {
-            // A capsule's seventh number is its radius; a box has corners alone.
-            let reach = if row.len() == 7 { row[6] } else { 0.0 };
-            for point in row.chunks_exact(3) {
-                for axis in 0..2 {
-                    low[axis] = low[axis].min(point[axis] - reach);
-                    high[axis] = high[axis].max(point[axis] + reach);
-                }
-            }
-        }
-    }
+    let rows = stills.into_iter().chain(bodies).flat_map(|trace| trace.values.chunks(trace.width));
+    let [low, high] = bounds(rows.flat_map(|row| {
+        // A capsule's seventh number is its radius; a box has corners alone.
+        let reach = if row.len() == 7 { row[6] } else { 0.0 };
+        row.chunks_exact(3).flat_map(move |p| [-reach, reach].map(|by| [p[0] + by, p[1] + by]))
+    }));
     let ([x0, y0], [x1, y1]) = (low.map(|x| x - MARGIN_MM), high.map(|x| x + MARGIN_MM));
     vec![[x0, y0, height], [x1, y0, height], [x1, y1, height], [x0, y1, height]]
 }
@@ -184,11 +177,8 @@ fn posed(pose: &Trace) -> [String; 4] {
     [(0, axes, 0), (axes, axes + 3, 1), (axes + 3, axes + 6, 1), (axes + 6, axes + 9, 3)].map(numbers)
 }
 
-/// A panel that shows `scene`.
-fn panel(title: &str, scene: Solids, camera: Camera, keys: Vec<Key>) -> Panel {
-    let bar = Some(ScaleBar { length: 500.0, label: "500 mm".to_owned() });
-    SceneMark { scene, camera, bar, keys }.panel(title)
-}
+/// Length of the scale bar.
+const BAR: (f64, &str) = (500.0, "mm");
 
 impl WorkCell {
     /// Refuses poses and ways of queries that are not there.
@@ -212,13 +202,8 @@ impl WorkCell {
     }
 
     /// The robot at its poses.
-    fn poses(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        let instance = ask::instance(scene, &self.problems, 0)?;
-        let mut sheet = Sheet::new(Width::Double, VIEWS.len(), 200.0);
-        let lines = straight_lines(scene, instance);
-        if !lines.is_empty() {
-            sheet = sheet.titled(heading(&lines));
-        }
+    fn poses(&self, scene: &Scene<'_>, instance: &Arc<InstanceKey>) -> Result<Vec<Panel>, RenderError> {
+        let mut panels = Vec::new();
         let named: Vec<(usize, &[String; 2])> = self.poses.iter().enumerate().collect();
         for (row, shown) in named.chunks(self.at_once.max(1)).enumerate() {
             for (title, camera) in VIEWS {
@@ -239,10 +224,10 @@ impl WorkCell {
                     }
                     keys.push(cell_key(format!("robot at {name}"), color));
                 }
-                sheet.add(panel(title, solids, camera, keys));
+                panels.push(panel(title, solids, camera, BAR, keys));
             }
         }
-        Ok(sheet)
+        Ok(panels)
     }
 
     /// Writes the names of boxes across their middles.
@@ -261,18 +246,20 @@ impl WorkCell {
         Ok(())
     }
 
-    /// The ways of the tool, one column a contender.
-    fn ways(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
+    /// The instance whose ways are shown.
+    fn shared_instance(&self, scene: &Scene<'_>) -> Result<u32, RenderError> {
         let shared =
             |trace| ask::shared_instance(scene, &self.problems, &self.query, &self.contenders, trace);
-        let number = shared("trajectory").or_else(|_| shared("way_mm"))?;
-        let mut sheet = Sheet::new(Width::Double, self.contenders.len(), 200.0);
-        if let Some(rank) = self.rank(scene, number) {
-            sheet = sheet.titled(rank);
+        shared("trajectory").or_else(|_| shared("way_mm"))
+    }
+
+    /// What stands above all panels.
+    fn title(&self, scene: &Scene<'_>) -> Option<String> {
+        if !self.contenders.is_empty() {
+            return self.rank(scene, self.shared_instance(scene).ok()?);
         }
-        let all =
-            (0..VIEWS.len()).flat_map(|view| (0..self.contenders.len()).map(move |index| (view, index)));
-        sheet.with(all.map(|(view, index)| self.way(scene, number, index, view)))
+        let lines = straight_lines(scene, ask::instance(scene, &self.problems, 0).ok()?);
+        (!lines.is_empty()).then(|| heading(&lines))
     }
 
     fn way(&self, scene: &Scene<'_>, number: u32, index: usize, view: usize) -> Result<Panel, RenderError> {
@@ -287,11 +274,8 @@ impl WorkCell {
         let stops =
             ask::trace(scene, &row.key, "trajectory").or_else(|_| ask::trace(scene, &row.key, "way_mm"))?;
         // The tip is the last of the numbers of each stop.
-        let points: Vec<[f64; 3]> = stops
-            .values
-            .chunks(stops.width)
-            .map(|stop| [stop[stop.len() - 3], stop[stop.len() - 2], stop[stop.len() - 1]])
-            .collect();
+        let tips = stops.values.chunks(stops.width).filter_map(|stop| stop.last_chunk().copied());
+        let points: Vec<[f64; 3]> = tips.collect();
         let color = series_color(ask::series(scene, contender, index));
         for (name, at) in [("start", points.first()), ("goal", points.last())] {
             if let Some(at) = at {
@@ -300,14 +284,13 @@ impl WorkCell {
         }
         solids.overlay(points.clone(), Stroke::solid(color, 0.7).dashed(Dash::Dotted));
         solids.polyline(points, Stroke::solid(color, 1.8));
-        let number = |column: &str| row.value(column).unwrap_or(f64::NAN);
         let title = if view == 0 {
-            let [length, legs] = ["path_length_mm", "local_paths"].map(number);
-            format!("{contender}: {length:.0} mm, {legs} local paths")
+            let [length, legs] = ["path_length_mm", "local_paths"].map(|column| ask::number(row, column, 0));
+            format!("{contender}: {length} mm, {legs} local paths")
         } else {
             format!("the same {seen}")
         };
-        Ok(panel(&title, solids, camera, Vec::new()))
+        Ok(panel(title, solids, camera, BAR, Vec::new()))
     }
 
     /// What the picked instance's saving is among those of all instances, in words.
@@ -324,16 +307,24 @@ impl WorkCell {
     }
 }
 
-impl Kind for WorkCell {
+impl World for WorkCell {
     fn shown(&self) -> Vec<Shown<'_>> {
-        match &self.contenders[..] {
-            [] => Shown::preprocessing(&self.problems),
-            contenders => Shown::first(&self.problems, contenders),
-        }
+        vec![Shown::first(&self.problems, &self.contenders)]
     }
 
-    fn draw(&self, scene: &Scene<'_>) -> Result<Sheet, RenderError> {
-        if self.contenders.is_empty() { self.poses(scene) } else { self.ways(scene) }
+    fn sheet(&self, scene: &Scene<'_>, _count: usize) -> Sheet {
+        let columns = if self.contenders.is_empty() { VIEWS.len() } else { self.contenders.len() };
+        Sheet::new(Width::Double, columns, 200.0).titled(self.title(scene).unwrap_or_default())
+    }
+
+    fn panels(&self, scene: &Scene<'_>, shown: &Shown<'_>, _place: usize) -> Result<Vec<Panel>, RenderError> {
+        if shown.contenders.is_empty() {
+            return self.poses(scene, shown.instance(scene)?);
+        }
+        let number = self.shared_instance(scene)?;
+        let all =
+            (0..VIEWS.len()).flat_map(|view| (0..shown.contenders.len()).map(move |index| (view, index)));
+        all.map(|(view, index)| self.way(scene, number, index, view)).collect()
     }
 
     fn table(&self, scene: &Scene<'_>, label: &str, caption: &str) -> Result<Option<Table>, RenderError> {

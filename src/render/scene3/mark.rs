@@ -3,6 +3,7 @@
 use super::order::{Item, Look, back_to_front};
 use super::{Camera, Chain, Scene, Tag, Vec3, dot, sub};
 use crate::render::canvas::{Align, Canvas, Rect, Stand, Type};
+use crate::render::chart::axis::bounds;
 use crate::render::chart::{Axis, Key, Mark, Panel, Trim, View};
 use crate::render::style::{BLUE, Fill, GREEN, HAIR_PT, INK, Rgb, Stroke, TextSize, VERMILLION};
 
@@ -28,6 +29,21 @@ pub struct SceneMark {
     pub keys: Vec<Key>,
 }
 
+/// A panel without axes that shows `scene` alone, with a scale bar of this length and unit.
+pub fn panel(
+    title: impl Into<String>,
+    scene: Scene,
+    camera: Camera,
+    (length, unit): (f64, &str),
+    keys: Vec<Key>,
+) -> Panel {
+    let bar = Some(ScaleBar { length, label: format!("{length} {unit}") });
+    let bare = || Axis::over("", []);
+    let mut panel = Panel::new(title, bare(), bare()).trimmed(Trim::Bare);
+    panel.add(SceneMark { scene, camera, bar, keys });
+    panel
+}
+
 /// Height kept free at the foot of the frame for the axes' directions and the scale bar.
 const FOOT_PT: f64 = 30.0;
 
@@ -44,13 +60,7 @@ impl Lens {
     pub fn fitting(scene: &Scene, camera: Camera, room: Rect) -> Self {
         let (middle, _) = scene.ball();
         let mut lens = Self { camera, middle, scale: 1.0, shift: [0.0; 2] };
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for point in scene.extent().map(|point| lens.at(point)) {
-            for axis in 0..2 {
-                low[axis] = low[axis].min(point[axis]);
-                high[axis] = high[axis].max(point[axis]);
-            }
-        }
+        let [low, high] = bounds(scene.extent().map(|point| lens.at(point)));
         let span = |axis: usize| (high[axis] - low[axis]).max(1e-300);
         lens.scale = (room.w / span(0)).min(room.h / span(1));
         lens.shift = [
@@ -70,14 +80,6 @@ impl Lens {
 }
 
 impl SceneMark {
-    /// It alone on a panel without axes.
-    pub fn panel(self, title: impl Into<String>) -> Panel {
-        let bare = || Axis::over("", []);
-        let mut panel = Panel::new(title, bare(), bare()).trimmed(Trim::Bare);
-        panel.add(self);
-        panel
-    }
-
     /// Everything to draw, back to front.
     pub(super) fn items(&self) -> Vec<Item> {
         let mut items = Vec::new();
