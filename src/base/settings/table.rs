@@ -237,8 +237,8 @@ impl Settings {
         fault.map_or(Ok(()), |fault| Err(self.error_at(path, fault)))
     }
 
-    /// An error about `word`, a name that these settings give where one of `paths` leads: to any element of an array of which a
-    /// path gives no number. If it is nowhere there, the error stands as near as there is anything on the first path.
+    /// An error about `word`, a name that these settings give where one of `paths` leads. A path goes to every element of an array
+    /// unless it gives the number of one. The error stands at the first such text, otherwise as near to the first path as there is anything.
     pub fn error_about(&self, paths: &[&str], word: &str, message: impl Into<String>) -> SettingsError {
         let whole = toml::Value::Table(self.table.clone());
         let found = paths.iter().find_map(|path| path_of(&whole, &path.split('.').collect::<Vec<_>>(), word));
