@@ -40,7 +40,13 @@ pub(super) fn load_robot(
     with: Option<&Table>,
     srdf: Option<&Path>,
 ) -> Result<Robot, SettingsError> {
-    inputs.once(format!("{} {with:?} {srdf:?}", file.display()), || read_robot(settings, file, with, srdf))
+    let srdf_name = srdf.map_or_else(String::new, |srdf| srdf.display().to_string());
+    inputs.once(format!("{}\n{srdf_name}", named(file, with)), || read_robot(settings, file, with, srdf))
+}
+
+/// A file and what is laid over it.
+fn named(file: &Path, with: Option<&Table>) -> String {
+    format!("{}\n{}", file.display(), with.map_or_else(String::new, Table::to_string))
 }
 
 fn read_robot(
@@ -77,7 +83,7 @@ pub(super) fn load_scene<S: Clone + Send + Sync + 'static>(
     with: Option<&Table>,
     read: impl FnOnce(&Arc<Document>) -> Result<S, SettingsError>,
 ) -> Result<S, SettingsError> {
-    inputs.once(format!("{} {with:?}", file.display()), || {
+    inputs.once(named(file, with), || {
         let Some(with) = with else { return read(&Document::open(file)?) };
         let document = overlaid(settings, SCENE_WITH, with, file)?;
         read(&document).map_err(|fault| settings.error_at(SCENE_WITH, fault.message()))
