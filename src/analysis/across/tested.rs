@@ -117,7 +117,8 @@ pub(super) fn by_option(
     if fits.is_empty() {
         return Vec::new();
     }
-    let with_any = if any.is_empty() { String::new() } else { format!(", with every option of {}", any.join(", ")) };
+    let with_any =
+        if any.is_empty() { String::new() } else { format!(", with every option of {}", any.join(", ")) };
     let fits = format!("{FITS}{}{with_any}", fits.join(", "));
     let corrected = corrected(greatest_of_all, times)
         .map_or_else(String::new, |corrected| format!(", and {corrected} for {times} interpretations"));
