@@ -130,7 +130,11 @@ impl SettingsError {
     /// of several sizes.
     fn repeats(&self, known: &Self) -> bool {
         let found = |message: &str| match message.split_once("; ") {
-            Some((found, range)) if range.ends_with(" are accepted") => found.to_owned(),
+            Some((found, range))
+                if [" is accepted", " are accepted"].iter().any(|end| range.ends_with(end)) =>
+            {
+                found.to_owned()
+            }
             _ => message.to_owned(),
         };
         match (self, known) {
