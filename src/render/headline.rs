@@ -6,6 +6,7 @@ use super::effect::{effect, percentage, side_by_side};
 use super::figure::noun;
 use super::prose::number;
 use super::tables::short;
+use crate::analysis::across::wording::SEED_DECIDES;
 use crate::analysis::settle::COMBINATION;
 use crate::analysis::verdict::{ClaimVerdict, Estimate, LEAST_P, Quantity, Verdicts};
 use crate::analysis::verdict_rule::Verdict;
@@ -86,7 +87,8 @@ impl Headline<'_> {
         }
         let shown = if self.judged.verdict == Verdict::Depends { 2 } else { 1 };
         let words = self.judged.beside.iter().take(shown).map(|words| without_zeros(words));
-        words.reduce(|one, two| format!("{one}; {two}"))
+        let by_seed = self.judged.beside.iter().any(|words| words.starts_with(SEED_DECIDES));
+        words.chain(by_seed.then(|| SEED_DECIDES.to_owned())).reduce(|one, two| format!("{one}; {two}"))
     }
 
     fn all_words(&self, verdicts: &Verdicts) -> Option<String> {

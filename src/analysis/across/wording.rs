@@ -16,6 +16,9 @@ const OPTIONS: usize = 2;
 /// The words beside every verdict on trials that no run of ours made, which caps it at supported and not supported.
 pub const ELSEWHERE: &str = "on trials recorded elsewhere, not reproduced here";
 
+/// Where the two seeds speak opposite ways.
+pub const SEED_DECIDES: &str = "the seed decides";
+
 /// Of what holds by its sign and misses the printed size.
 const SIGN_ALONE: &str = "the sign alone";
 
@@ -74,7 +77,7 @@ impl View<'_> {
             Line::Refused => vec!["the second seed contradicts what was fitted".to_owned()],
             Line::SeedDecides => {
                 let [one, two] = [self.results.default, self.results.second].map(way);
-                self.with_counts([Some(format!("the seed decides: the first {one}, the second {two}")), None])
+                self.with_counts([Some(format!("{SEED_DECIDES}: the first {one}, the second {two}")), None])
             }
             Line::Nine | Line::More => {
                 let speaks = if holds > fails { Polarity::For } else { Polarity::Against };
