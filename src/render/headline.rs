@@ -201,16 +201,16 @@ fn probability(p: f64, judged: &ClaimVerdict) -> String {
     first + &corrected + &second
 }
 
-/// From this share on the printed numbers are called ordinary among ours.
-const ORDINARY: f64 = 0.2;
+/// From this share on the printed numbers are called typical among ours.
+const TYPICAL: f64 = 0.2;
 
 /// How many of our instances are at least as far from the mean as the printed numbers.
 fn rank(ours: &Estimate, noun: &str) -> String {
     let share = percentage(ours);
-    if ours.value < ORDINARY {
-        format!("only {share} of our {noun} lie at least as far from the mean as the printed numbers")
+    if ours.value < TYPICAL {
+        format!("unusual: only {share} of our {noun} lie as far from the mean or farther")
     } else {
-        format!("ordinary: {share} of our {noun} lie at least as far from the mean")
+        format!("typical: {share} of our {noun} lie as far from the mean or farther")
     }
 }
 
